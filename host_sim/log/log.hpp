@@ -46,6 +46,7 @@ struct LogHead {
 struct Log {
     LogHead head;
     std::vector<LogStep> steps;
+    bool unverified = false;  ///< read from a CSV without a checksum line: edits go unnoticed
 };
 
 }  // namespace host_sim
