@@ -259,13 +259,19 @@ constexpr T bit_xor(T a, T b) {
 
 // -- Table access --------------------------------------------------------------------------------
 
+/// The machine integer behind `value`; itself here, unwrapped where operations are counted. For the
+/// boundary of a kernel, where results go into plain structs.
+template <Word T>
+constexpr T native(T value) {
+    return value;
+}
 /// The subscript that `index` stands for: table[index_of(i)]. The range is the caller's business.
 template <UnsignedNarrowWord T>
 constexpr T index_of(T index) {
     return index;
 }
 /// table[index]; an index beyond the end reads the last entry.
-template <class T, uint16_t kSize, UnsignedNarrowWord I>
+template <Word T, uint16_t kSize, UnsignedNarrowWord I>
 constexpr T look_up(const T (&table)[kSize], I index) {
     return table[index < kSize ? index : kSize - 1u];
 }
