@@ -6,6 +6,8 @@
 // Depends       every other part of host_sim/world, host_sim/log/log.hpp (Truth).
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -76,8 +78,8 @@ public:
     /// @errors  InputError when an option is out of its range
     explicit Drive(DriveOptions options);
 
-    /// Carries out the commands for 0.1 s and reads the sensors. With commands of zero the vehicle
-    /// stands still; the first step is usually that. After the end it keeps standing.
+    /// Carries out the commands for 0.1 s and reads the sensors. The first call only reads them, at
+    /// time 0; after the end the vehicle keeps standing.
     DriveStep step(const hal::Commands& commands);
 
     [[nodiscard]] DriveEnd end() const { return end_; }
@@ -90,7 +92,7 @@ private:
     void travel(double odometer_cm);
     void begin_cycle(bool backwards);
     void move_by_hand();
-    void stand(bool by_hand);
+    void stand();
     [[nodiscard]] SensedState sense() const;
     [[nodiscard]] Truth truth() const;
     [[nodiscard]] double rear_x_cm() const { return options_.start_cm + state_.position_cm; }
@@ -104,7 +106,7 @@ private:
     std::int64_t step_count_ = 0;
     double cycle_travel_cm_ = 0;   // odometer within the cycle, either direction
     double cycle_advance_cm_ = 0;  // drawn for the whole cycle
-    bool cycle_backwards_ = false;
+    std::size_t next_move_ = 0;
 };
 
 /// Full speed ahead for the first steps until a controller commands otherwise.

@@ -13,12 +13,14 @@
 // Depends   hal/io.hpp, host_sim/world/vehicle.hpp, random.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hal/calibration.hpp"
 #include "hal/io.hpp"
 #include "host_sim/world/random.hpp"
 #include "host_sim/world/vehicle.hpp"
@@ -27,11 +29,13 @@ namespace host_sim {
 
 enum class FaultKind : std::uint8_t { stuck, dropped, offset, absent };
 
+inline constexpr std::uint8_t kEveryWheel = 0xFF;
+
 /// A place in RawInputs that can fail.
 struct FaultChannel {
     enum class Group : std::uint8_t { angle, tachometer, range_sample, range_module };
     Group group = Group::angle;
-    std::uint8_t index = 0;  ///< hal::AngleChannel, hal::Wheel or sample
+    std::uint8_t index = 0;  ///< hal::AngleChannel, hal::Wheel (kEveryWheel: all six) or sample
 };
 
 struct Fault {
@@ -65,18 +69,18 @@ public:
 private:
     struct Active {
         Fault fault;
-        bool held = false;                // stuck: `last` is a value from before the fault
-        hal::RawInputs last;              // as of the last step that passed unharmed
-        std::vector<std::uint16_t> seen;  // dropped pulses: true count of the last step
-        std::uint16_t lost = 0;           // dropped pulses: lost so far, lost for good
+        Random random;
+        bool started = false;  // `last` and `seen` hold something
+        hal::RawInputs last;   // as of the last step that this fault left alone
+        std::array<std::uint16_t, hal::kWheelCount> seen = {};  // true counts of the last step
+        std::array<std::uint16_t, hal::kWheelCount> lost = {};  // pulses lost so far, for good
     };
-    void apply_angle(Active& active, hal::RawInputs& inputs);
-    void apply_tachometer(Active& active, bool on, hal::RawInputs& inputs);
-    void apply_range(Active& active, hal::RawInputs& inputs);
+    void apply_angle(Active& active, hal::RawInputs& inputs) const;
+    static void apply_tachometer(Active& active, bool on, hal::RawInputs& inputs);
+    static void apply_range(Active& active, hal::RawInputs& inputs);
 
     std::vector<Active> plan_;
-    std::vector<double> q4_count_per_degree_;
-    Random random_;
+    std::array<double, hal::kAngleChannelCount> q4_count_per_degree_ = {};
 };
 
 }  // namespace host_sim
