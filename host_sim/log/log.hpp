@@ -30,14 +30,14 @@ struct Truth {
 struct LogStep {
     std::uint32_t time_ms = 0;  ///< since the log's start, strictly increasing
     hal::RawInputs inputs;
-    std::optional<Truth> truth;                   ///< fields that the source lacks are NaN
-    std::optional<rover::Estimates> estimates;    ///< what the controller concluded
-    std::optional<hal::Commands> commands;        ///< what it commanded
+    std::optional<Truth> truth;                 ///< fields that the source lacks are NaN
+    std::optional<rover::Estimates> estimates;  ///< what the controller concluded
+    std::optional<hal::Commands> commands;      ///< what it commanded
 };
 
 /// Head of a log.
 struct LogHead {
-    std::string vehicle;         ///< vehicle description, TOML text (host_sim/vehicles/*.toml)
+    std::string vehicle;  ///< vehicle description, TOML text (host_sim/vehicles/*.toml)
     hal::Calibration calibration;
     std::string image_identity;  ///< version and hash of the firmware that ran; empty: none ran
     std::map<std::string, std::string> notes;  ///< source, terrain, seed, ...: shown in the report

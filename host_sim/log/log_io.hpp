@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -17,6 +18,9 @@
 #include "host_sim/log/log.hpp"
 
 namespace host_sim {
+namespace detail {
+class RlogEncoder;
+}
 
 /// What is wrong with a log, where, and what to do. what() is one printable line:
 /// `file:12: what; advice` (CSV), `file:byte 345: what; advice` (.rlog), `file: what; advice`.
@@ -83,13 +87,11 @@ public:
     void close();  ///< flush and close; append is an error from here on
 
 private:
-    std::string name_;
+    std::filesystem::path path_;
     std::string buffer_;
     std::size_t flush_size_;
+    std::unique_ptr<detail::RlogEncoder> encoder_;
     int descriptor_ = -1;
-    std::uint32_t chain_crc_ = 0;
-    std::uint32_t sequence_ = 0;
-    std::int64_t last_time_ms_ = -1;
 };
 
 /// What recover_rlog kept and dropped.
