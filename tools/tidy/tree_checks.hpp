@@ -1,0 +1,24 @@
+// tree_checks.hpp - the rules that look at all files together.
+#pragma once
+
+#include <vector>
+
+#include "tools/tidy/rules.hpp"
+
+namespace tidy {
+
+/// Includes follow the layers, name files that exist and form no cycle.
+std::vector<Violation> check_includes(const std::vector<SourceFile>& files, const Rules& rules);
+
+/// Every source with a function in it has tests/<path>/<name>_test.cpp. A header and its source
+/// share one test.
+std::vector<Violation> check_mirror(const std::vector<SourceFile>& files, const Rules& rules);
+
+/// Relative links of Markdown pages lead to tracked files, folders and headings; programs in their
+/// command lines are tracked scripts or targets of a CMakeLists.txt.
+std::vector<Violation> check_pages(const std::vector<SourceFile>& files);
+
+/// All rules on all files, exemptions applied, in the order of files and lines.
+std::vector<Violation> check_tree(const std::vector<SourceFile>& files, const Rules& rules);
+
+}  // namespace tidy
