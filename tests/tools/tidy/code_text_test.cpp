@@ -28,7 +28,9 @@ TEST(BlankComments, StringContentsBecomeBlanksAndQuotesStay) {
 }
 
 TEST(BlankComments, RawStringsEndAtTheirOwnDelimiter) {
-    EXPECT_EQ(blank_comments_and_literals("R\"x(a)\" { )x\" b"), "R" + std::string(12, ' ') + " b");
+    EXPECT_EQ(blank_comments_and_literals("R\"x(a)\" { )x\" b"),
+              "R            "
+              " b");
 }
 
 TEST(BlankComments, DigitSeparatorsAreNotCharacterLiterals) {
