@@ -13,7 +13,8 @@ for header in "${headers[@]}"; do
     printf '#include "%s"\n' "$header" >"$scratch/${header//\//.}.cpp"
 done
 
-options=(-std=c++20 -ffreestanding -fno-exceptions -fno-rtti -fsyntax-only -I. -Ifirmware/config/native
+options=(-std=c++20 -ffreestanding -fno-exceptions -fno-rtti -fsyntax-only
+    -I. -Ifirmware/config/native
     -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion)
 for target in x86_64-linux-gnu msp430-none-elf; do
     find "$scratch" -name '*.cpp' -print0 |

@@ -28,9 +28,7 @@ TEST(BlankComments, StringContentsBecomeBlanksAndQuotesStay) {
 }
 
 TEST(BlankComments, RawStringsEndAtTheirOwnDelimiter) {
-    EXPECT_EQ(blank_comments_and_literals("R\"x(a)\" { )x\" b"),
-              "R            "
-              " b");
+    EXPECT_EQ(blank_comments_and_literals("R\"x(a)\" { )x\" b"), "R             b");
 }
 
 TEST(BlankComments, DigitSeparatorsAreNotCharacterLiterals) {
