@@ -5,6 +5,8 @@
 //              comparison: what the helper stands for (mul_wide is one multiplication, however many
 //              instructions the machine needs). average, clamp and lerp are sums of such.
 // Not counted  loop counters and branches on plain integers, copies, wrapping and widening.
+// One program  holds either plain or counting kernels: functions without words in their signature
+//              would have two definitions.
 // Tests        tests/tools/opcount/counted_test.cpp
 #pragma once
 

@@ -1,0 +1,10 @@
+# Every line that `tablegen accuracy` prints stands in the design page.
+execute_process(COMMAND ${PROGRAM} accuracy OUTPUT_VARIABLE printed RESULT_VARIABLE result)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "tablegen accuracy failed: ${result}")
+endif()
+file(READ ${DOCUMENT} page)
+string(FIND "${page}" "${printed}" place)
+if(place EQUAL -1)
+  message(FATAL_ERROR "${DOCUMENT} does not hold this table; paste it there:\n${printed}")
+endif()
