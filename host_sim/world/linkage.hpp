@@ -16,6 +16,7 @@ namespace host_sim {
 inline constexpr int kLinkageIterations = 60;
 inline constexpr int kBisections = 60;
 inline constexpr double kLinkageToleranceCm = 1e-7;
+inline constexpr double kRangeReachCm = 100;    ///< look-ahead heights beyond +-1 m are not seen
 inline constexpr double kSteepestSine = 0.985;  ///< bisection looks between -80 and +80 degrees
 
 struct LinkageGeometry {
@@ -159,7 +160,7 @@ struct RangeSight {
     double height_cm =
         0;  ///< H: ground height in the body frame, 0 for level ground under a level rover
     double x_cm = 0;    ///< world x of the point seen
-    bool seen = false;  ///< false: no ground found; the numbers are the last tried
+    bool seen = false;  ///< false: no ground within kRangeReachCm; the numbers mean nothing
 };
 
 /// Solves for the height H at which the point X ahead of the body reference, H above the level of
@@ -183,18 +184,18 @@ RangeSight look_ahead(const RangeView& view, double ahead_cm, const Ground& grou
         sight.x_cm = base_x - sight.height_cm * pitch_sin;
         const double miss_cm = ground(sight.x_cm) - (base_y + sight.height_cm * pitch_cos);
         if (std::abs(miss_cm) <= kLinkageToleranceCm) {
-            sight.seen = true;
+            sight.seen = std::abs(sight.height_cm) <= kRangeReachCm;
             return sight;
         }
         const double gain = i < kLinkageIterations / 2 ? 1.0 : 0.5;
         sight.height_cm += gain * miss_cm / pitch_cos;
     }
-    // Rough ground: the line of points is straight, so it is cut by bisection over +-1 m.
+    // Rough ground: the line of points is straight, so it is cut by bisection.
     const auto miss = [&](double height_cm) {
         return ground(base_x - height_cm * pitch_sin) - (base_y + height_cm * pitch_cos);
     };
-    double low = -100.0;
-    double high = 100.0;
+    double low = -kRangeReachCm;
+    double high = kRangeReachCm;
     if (!(miss(low) > 0) || !(miss(high) < 0)) return sight;
     for (int i = 0; i < kBisections; ++i) {
         sight.height_cm = 0.5 * (low + high);

@@ -24,6 +24,11 @@ struct AngleError {
     double gain = 1;
 };
 
+/// Repeatability of the suspension potentiometers of the rover Spirit at rest: pooled deviation of
+/// the repeated readings in chassis_state.csv
+/// (SpiritData.RepeatabilityOfThePotentiometersIsAsStated).
+inline constexpr double kSpiritPotentiometerNoiseRad = 0.26e-3;
+
 /// The defaults give z(1) a noise of 0.04 mm, the paper's figure, with Rocky 3.2's converter
 /// (Sensors.DefaultNoiseIsThePapers).
 struct SensorModel {

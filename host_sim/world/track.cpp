@@ -5,6 +5,15 @@
 
 namespace host_sim {
 
+namespace {
+
+std::size_t rut_sample_count(const Terrain& ground) {
+    const double samples = (ground.end_cm() - ground.begin_cm()) / kTerrainSpacingCm;
+    return static_cast<std::size_t>(std::ceil(samples)) + 1;
+}
+
+}  // namespace
+
 Track::Track(const Terrain& ground, const SinkageField& sinkage)
     : ground_(ground), bearing_(load_bearing(ground, sinkage)) {}
 
@@ -14,9 +23,8 @@ Track::Track(const Terrain& ground, double static_cm, const SinkageLaw& law)
       static_cm_(static_cm),
       law_(law),
       wanted_cm_(static_cm),
-      settled_x_cm_(ground.begin_cm()),
-      settled_depth_cm_(static_cm),
-      rut_(ground.sample_count(), static_cm) {
+      decay_(std::exp(-kTerrainSpacingCm / kContactPatchCm)),
+      rut_(rut_sample_count(ground), static_cm) {
     if (!(static_cm >= 0) || !std::isfinite(static_cm)) {
         throw InputError("sinkage: the static depth must not be negative");
     }
@@ -24,18 +32,18 @@ Track::Track(const Terrain& ground, double static_cm, const SinkageLaw& law)
 
 double Track::rut_cm(double x_cm) const {
     if (!(x_cm > ground_.begin_cm())) return rut_.front();
-    if (x_cm >= settled_x_cm_) {
-        const double patches = (x_cm - settled_x_cm_) / kContactPatchCm;
-        return wanted_cm_ + (settled_depth_cm_ - wanted_cm_) * std::exp(-patches);
+    const double place = (x_cm - ground_.begin_cm()) / kTerrainSpacingCm;
+    const double last = static_cast<double>(settled_samples_ - 1);
+    if (place < last) {
+        const auto index = static_cast<std::size_t>(place);
+        const double fraction = place - static_cast<double>(index);
+        return rut_[index] + fraction * (rut_[index + 1] - rut_[index]);
     }
-    const double place = (x_cm - ground_.begin_cm()) / ground_.spacing_cm();
-    const auto index = std::min(static_cast<std::size_t>(place), settled_samples_ - 1);
-    const double from_cm = ground_.sample_x_cm(index);
-    const bool last = index + 1 >= settled_samples_;
-    const double to_cm = last ? settled_x_cm_ : ground_.sample_x_cm(index + 1);
-    const double to_depth_cm = last ? settled_depth_cm_ : rut_[index + 1];
-    if (!(to_cm > from_cm)) return rut_[index];
-    return rut_[index] + (x_cm - from_cm) / (to_cm - from_cm) * (to_depth_cm - rut_[index]);
+    // Ahead: what roll_to() would settle there, linear between samples like the settled part.
+    const double ahead = std::min(place - last, 1e6);
+    const double whole = std::floor(ahead);
+    const double near_cm = (rut_[settled_samples_ - 1] - wanted_cm_) * std::pow(decay_, whole);
+    return wanted_cm_ + near_cm * (1.0 - (ahead - whole) * (1.0 - decay_));
 }
 
 void Track::set_slip(double slip) {
@@ -44,16 +52,12 @@ void Track::set_slip(double slip) {
 
 void Track::roll_to(double x_cm) {
     if (!makes_rut_) return;
-    x_cm = std::min(x_cm, ground_.end_cm());
-    if (!(x_cm > settled_x_cm_)) return;
-    while (settled_samples_ < rut_.size() && ground_.sample_x_cm(settled_samples_) <= x_cm) {
-        // Samples at or behind the settled end get its depth: the first one, at the beginning.
-        const double at_cm = std::max(settled_x_cm_, ground_.sample_x_cm(settled_samples_));
-        rut_[settled_samples_] = rut_cm(at_cm);
+    const double place = (x_cm - ground_.begin_cm()) / kTerrainSpacingCm;
+    while (settled_samples_ < rut_.size() && static_cast<double>(settled_samples_ - 1) < place) {
+        const double before_cm = rut_[settled_samples_ - 1];
+        rut_[settled_samples_] = wanted_cm_ + (before_cm - wanted_cm_) * decay_;
         ++settled_samples_;
     }
-    settled_depth_cm_ = rut_cm(x_cm);
-    settled_x_cm_ = x_cm;
 }
 
 }  // namespace host_sim

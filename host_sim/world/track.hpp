@@ -43,7 +43,8 @@ public:
     /// Tells the slip of the cycle just ended; the rut ahead tends to the depth that belongs to it.
     void set_slip(double slip);
 
-    /// The front wheel has come to x_cm; ground up to there is settled and will not change.
+    /// The front wheel has come to x_cm; the rut is settled up to its next sample and will not
+    /// change there again.
     void roll_to(double x_cm);
 
 private:
@@ -54,11 +55,10 @@ private:
     bool makes_rut_ = false;
     double static_cm_ = 0;
     SinkageLaw law_;
-    double wanted_cm_ = 0;         // depth that the present slip leads to
-    double settled_x_cm_ = 0;      // the rut is made up to here ...
-    double settled_depth_cm_ = 0;  // ... and this deep at its end
-    std::vector<double> rut_;      // depth at the ground's samples, settled part only
-    std::size_t settled_samples_ = 0;
+    double wanted_cm_ = 0;             // depth that the present slip leads to
+    double decay_ = 0;                 // of the distance from it, per sample
+    std::vector<double> rut_;          // depth every kTerrainSpacingCm, settled part only
+    std::size_t settled_samples_ = 1;  // the last of them lies at the front contact or ahead of it
 };
 
 }  // namespace host_sim
