@@ -1,0 +1,83 @@
+// slip_tuning.hpp - every constant of the flying slip-and-sinkage estimator, with unit and range.
+// Depends on   rover_words.hpp.
+// Source       docs/design/slip-and-sinkage.md, "Tuning"; the same values in double precision are
+//              host_sim::MapGridTuning (checked against these in map_grid_test.cpp).
+// Units        a bin is 25 mm; "q6_bin" is 1/64 bin (0.39 mm); heights are mm Q4.
+#pragma once
+
+#include "rover_words.hpp"
+
+namespace rover::slip {
+
+// -- Geometry of the map --------------------------------------------------------------------------
+inline constexpr uint8_t kBinMm = 25;
+inline constexpr uint8_t kNodeCount = 32;             ///< ring of surface heights: 80 cm of ground
+inline constexpr uint8_t kHalfBinCandidates = 9;      ///< 0 to 10 cm ahead in steps of 1.25 cm
+inline constexpr uint16_t kReachQ6Bin = 256;          ///< 10 cm
+inline constexpr uint16_t kGapMaxQ6Bin = 640;         ///< 25 cm: a longer hole is not bridged
+inline constexpr uint16_t kMiddleMinQ6Bin = 64;       ///< 2.5 cm
+inline constexpr uint16_t kMiddleMaxQ6Bin = 704;      ///< 27.5 cm
+inline constexpr uint16_t kFrontMaxQ6Bin = 1408;      ///< 55 cm
+inline constexpr uint16_t kForgetBehindQ6Bin = 8192;  ///< 3.2 m behind the map: it is dropped
+
+// -- Matching -------------------------------------------------------------------------------------
+// Squares are looked up at 16 steps per sigma and stored in 1/64 of a squared sigma.
+inline constexpr uint8_t kPriorShift = 7;            ///< q12_bin -> 16 steps per 1.25 cm
+inline constexpr uint16_t kPriorVarianceQ12 = 1024;  ///< (1.25 cm)^2 in (1/64 bin)^2
+inline constexpr uint8_t kSigmaPerRoughShift = 2;    ///< residual sigma = rough / 4
+inline constexpr uint16_t kSigmaFloorQ8Mm = 26;      ///< 0.10 mm
+inline constexpr uint8_t kWidenPerCostQ8 = 179;      ///< 0.70
+inline constexpr uint16_t kWidenMaxQ8 = 768;         ///< 3.0
+inline constexpr uint16_t kCostCapQ6 = 1024;         ///< 16
+inline constexpr uint16_t kReacquireCostQ10 = 4096;  ///< 4: above it matching has failed
+inline constexpr uint16_t kTrackingCostQ10 = 1365;   ///< 4/3: below it lock is back
+inline constexpr uint16_t kAfterLossCostQ10 = 2048;  ///< 2: running cost restarts here
+inline constexpr uint16_t kInitialCostQ10 = 1024;    ///< 1
+inline constexpr uint16_t kCredibleFitQ6 = 1600;     ///< 25: five sigma at the edge is no match
+
+// -- Learned prior --------------------------------------------------------------------------------
+inline constexpr int16_t kMeanNoSlipQ12Bin = 9830;     ///< 6.0 cm
+inline constexpr int16_t kMeanMinQ12Bin = 1638;        ///< 1.0 cm
+inline constexpr int16_t kMeanReacquireQ12Bin = 8192;  ///< 5.0 cm
+inline constexpr uint8_t kLearnSteps = 24;
+/// 256 / (n + 8), n = 0 ... 24: a mean that starts quickly and ends at gain 1/32.
+inline constexpr uint8_t kLearnGainQ8[kLearnSteps + 1] = {
+    32, 28, 26, 23, 21, 20, 18, 17, 16, 15, 14, 13, 13, 12, 12, 11, 11, 10, 10, 9, 9, 9, 9, 8, 8};
+
+// -- Roughness ------------------------------------------------------------------------------------
+inline constexpr uint16_t kInitialRoughQ8Mm = 768;  ///< 3 mm
+inline constexpr uint16_t kRoughMaxQ8Mm = 32767;    ///< 128 mm
+
+// -- Sinkage --------------------------------------------------------------------------------------
+inline constexpr uint8_t kSampleCount = 24;
+inline constexpr uint16_t kMergeQ6Bin = 51;      ///< 2.0 cm
+inline constexpr uint16_t kLookNoiseQ8Mm = 420;  ///< 0.82 x 2 mm
+inline constexpr uint8_t kLookPerRoughQ8 = 77;   ///< 0.30
+inline constexpr uint8_t kSmoothedShareQ8 = 97;  ///< 0.378 = sqrt(gain / (2 - gain)), gain 1/4
+inline constexpr uint8_t kBelieveQ8 = 164;       ///< 0.64 = 2/pi: mean |v| to mean square
+inline constexpr uint16_t kBelieveNoneQ8 = 320;  ///< noise beyond 1.25 x signal: believe nothing
+inline constexpr uint8_t kSmoothSteps = 3;
+inline constexpr uint8_t kSmoothGainQ8[kSmoothSteps + 1] = {255, 128, 85, 64};
+inline constexpr uint8_t kSizeSteps = 31;
+/// 256 / (n + 1), n = 0 ... 31.
+inline constexpr uint8_t kSizeGainQ8[kSizeSteps + 1] = {
+    255, 128, 85, 64, 51, 43, 37, 32, 28, 26, 23, 21, 20, 18, 17, 16,
+    15,  14,  13, 13, 12, 12, 11, 11, 10, 10, 9,  9,  9,  9,  8,  8};
+
+// -- Position uncertainty -------------------------------------------------------------------------
+inline constexpr uint32_t kDriftPerLossQ12Bin = 8192;    ///< 5 cm for each loss of lock
+inline constexpr uint32_t kDriftPerMoveQ12Bin = 4096;    ///< 2.5 cm when moved by hand
+inline constexpr uint32_t kDriftPerTurnQ12Bin = 819;     ///< 0.5 cm per turning cycle
+inline constexpr uint16_t kUninformedVarianceQ12 = 870;  ///< 0.85 of the prior's variance
+
+// -- Alarms ---------------------------------------------------------------------------------------
+inline constexpr uint16_t kSlipAlarmCostQ10 = 3072;  ///< 3
+inline constexpr int8_t kSlipAlarmPercent = 60;
+inline constexpr uint16_t kPercentPerMeanQ16 = 667;  ///< 100 / 9830 in Q16
+inline constexpr int16_t kSinkageAlarmQ4Mm = 480;    ///< 30 mm
+
+static_assert(kNodeCount * kBinMm >= 500 + 100 + 4 * kBinMm, "the ring spans wheelbase and search");
+static_assert(kTrackingCostQ10 < kAfterLossCostQ10 && kAfterLossCostQ10 < kReacquireCostQ10);
+static_assert(kMeanMinQ12Bin < kMeanReacquireQ12Bin && kMeanReacquireQ12Bin < kMeanNoSlipQ12Bin);
+
+}  // namespace rover::slip

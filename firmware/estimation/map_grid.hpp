@@ -1,0 +1,137 @@
+// map_grid.hpp - slip and sinkage from articulation, the estimator that flies: one cycle.
+// Depends on   map_grid_match.hpp, map_grid_surface.hpp, map_grid_sinkage.hpp, core/isqrt.hpp.
+// Source       Wilcox 1994; changes and why in docs/design/slip-and-sinkage.md.
+// Bounds       no heap, no recursion; state in MapGrid. Any sequence of inputs leaves a defined
+//              state (MapGrid.AnyInputSequenceLeavesADefinedState).
+// Tests        tests/firmware/estimation/map_grid_test.cpp
+#pragma once
+
+#include "firmware/core/isqrt.hpp"
+#include "firmware/estimation/map_grid_match.hpp"
+#include "firmware/estimation/map_grid_sinkage.hpp"
+
+namespace rover {
+namespace slip {
+
+/// Is the ground under all candidate places of rear and middle wheel known?
+constexpr bool can_match(MapGrid& map, const MapGridInput& input) {
+    if (!map.has_map) return false;
+    if (!map.measured) {
+        map.measured = ahead_of(map.measured_from_q6_bin, map.place_q6_bin) >= S16{0};
+        if (!map.measured) return false;
+    }
+    if (input.odometer_q6_bin < S16{0} || input.odometer_q6_bin > S16{kReachQ6Bin}) return false;
+    if (ahead_of(map.lowest_q6_bin, map.place_q6_bin) < S16{0}) return false;
+    const U16 middle = add_wrap(map.place_q6_bin, input.middle_distance_q6_bin);
+    const U16 needed = add_wrap(middle, U16{kReachQ6Bin + 2 * 64});
+    return ahead_of(needed, add_wrap(map.front_place_q6_bin, U16{64})) >= S16{0};
+}
+
+constexpr void move_by(MapGrid& map, S16 advance_q6_bin) {
+    map.advance_q6_bin = advance_q6_bin;
+    map.place_q6_bin = add_wrap(map.place_q6_bin, narrow_wrap_u16(advance_q6_bin));
+    map.travelled_q6_bin = add_wrap(map.travelled_q6_bin, widen_s32(advance_q6_bin));
+}
+
+/// A quarter of a distance that nothing but the wheels measured.
+constexpr void add_odometry_doubt(MapGrid& map, S16 distance_q6_bin) {
+    const U32 quarter_q12 = shift_left_wrap<4>(widen_u32(abs_u16(distance_q6_bin)));
+    map.drift_q12_bin = add_sat(map.drift_q12_bin, quarter_q12);
+}
+
+constexpr void step_reverse(MapGrid& map, const MapGridInput& input) {
+    move_by(map, input.odometer_q6_bin);
+    add_odometry_doubt(map, input.odometer_q6_bin);
+    map.mode = SlipMode::reversing;
+    const S16 behind = ahead_of(map.place_q6_bin, map.lowest_q6_bin);
+    if (behind > S16{kForgetBehindQ6Bin}) drop_map(map);
+}
+
+constexpr void step_displaced(MapGrid& map, bool turning) {
+    drop_map(map);
+    move_by(map, S16{0});
+    map.mode = turning ? SlipMode::turning : SlipMode::moved;
+    map.drift_q12_bin =
+        add_sat(map.drift_q12_bin, U32{turning ? kDriftPerTurnQ12Bin : kDriftPerMoveQ12Bin});
+}
+
+/// Distances that the search can use; a linkage folded further is treated as no linkage.
+constexpr bool usable_linkage(const MapGridInput& input) {
+    if (!input.linkage) return false;
+    const U16 middle = input.middle_distance_q6_bin;
+    const U16 front = input.front_distance_q6_bin;
+    return middle >= U16{kMiddleMinQ6Bin} && middle <= U16{kMiddleMaxQ6Bin} &&
+           front <= U16{kFrontMaxQ6Bin} && front >= add_wrap(middle, U16{64});
+}
+
+/// Takes the new heights into the map, or starts a new one where the old does not reach.
+constexpr void update_map(MapGrid& map, const MapGridInput& input) {
+    const U16 front = add_wrap(map.place_q6_bin, input.front_distance_q6_bin);
+    if (map.has_map && ahead_of(map.front_place_q6_bin, front) > S16{kGapMaxQ6Bin}) drop_map(map);
+    if (!map.has_map) {
+        begin_map(map, input);
+        look_ahead(map, input, S16{0});
+        return;
+    }
+    if (ahead_of(map.lowest_q6_bin, map.place_q6_bin) < S16{0}) return;  // still behind the map
+    look_ahead(map, input, extend_map(map, input));
+}
+
+constexpr void step_forward(MapGrid& map, const MapGridInput& input) {
+    const bool linkage = usable_linkage(input);
+    if (linkage && can_match(map, input)) {
+        if (map.mode != SlipMode::tracking) map.mode = SlipMode::reacquiring;
+        const S16 advance = match_advance(map, input);
+        move_by(map, advance);
+        learn_advance(map, advance);
+    } else {
+        const S16 expected = shift_round_half_up<6>(expected_advance_q12_bin(map, input));
+        move_by(map, max(expected, S16{0}));
+        add_odometry_doubt(map, map.advance_q6_bin);
+        map.mode = linkage ? SlipMode::reacquiring : SlipMode::odometry_only;
+    }
+    map.sinkage_valid = false;
+    if (linkage) update_map(map, input);
+}
+
+/// Slip of the learned mean against a wheel that does not slip, percent [0, 84].
+constexpr S8 slip_percent(const MapGrid& map) {
+    const S32 share = mul_wide(map.mean_q12_bin, U16{kPercentPerMeanQ16});
+    return sub_wrap(S8{100}, narrow_sat_s8(shift_round_half_up<16>(share)));
+}
+
+}  // namespace slip
+
+/// One slip-and-sinkage cycle, due every 6.0 cm of wheel odometry.
+/// @param map    changed in place
+/// @param input  any values; distances out of range are treated as no linkage
+/// @context      control step; not re-entrant
+constexpr void map_grid_step(MapGrid& map, const MapGridInput& input) {
+    map.lost_lock = false;
+    switch (input.motion) {
+        case CycleMotion::forward:
+            slip::step_forward(map, input);
+            break;
+        case CycleMotion::reverse:
+            slip::step_reverse(map, input);
+            break;
+        case CycleMotion::turn:
+            slip::step_displaced(map, true);
+            break;
+        case CycleMotion::moved:
+            slip::step_displaced(map, false);
+            break;
+    }
+    map.slip_alarm = map.match_cost_q10 > U16{slip::kSlipAlarmCostQ10} ||
+                     slip::slip_percent(map) > S8{slip::kSlipAlarmPercent};
+}
+
+/// One sigma of the position, u16 Q4 mm, saturating: covers the error in 90 % of drives.
+constexpr U16 position_sigma_q4_mm(const MapGrid& map) {
+    const U32 spread_q6 = widen_u32(isqrt(map.variance_q12));
+    const U32 total_q6 = add_sat(spread_q6, shift_floor<6>(map.drift_q12_bin));
+    // 1/64 bin is 25/4 units of 1/16 mm.
+    return narrow_sat_u16(shift_floor<2>(mul_wide(narrow_sat_u16(total_q6), U16{slip::kBinMm})));
+}
+
+}  // namespace rover

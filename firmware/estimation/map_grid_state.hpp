@@ -1,0 +1,79 @@
+// map_grid_state.hpp - state and inputs of the flying slip-and-sinkage estimator.
+// Depends on   slip_tuning.hpp, estimates.hpp (SlipMode).
+// Bounds       MapGrid is a plain value of less than 400 bytes; no pointers.
+// Places       u16 in 1/64 bin of 25 mm along the track, modulo 2^16 (25.6 m); only differences
+//              count. Heights are s16 mm Q4, modulo 2^16, so hills of any height are fine.
+#pragma once
+
+#include "firmware/config/slip_tuning.hpp"
+#include "firmware/core/arith.hpp"
+#include "firmware/core/ring.hpp"
+#include "firmware/executive/estimates.hpp"
+
+namespace rover {
+
+/// What the vehicle did since the last cycle.
+enum class CycleMotion : uint8_t { forward, reverse, turn, moved };
+
+inline constexpr uint8_t kLookAheadMax = 8;
+
+/// One cycle's measurements, made by the kinematics from raw counts.
+struct MapGridInput {
+    CycleMotion motion = CycleMotion::forward;
+    bool linkage = false;             ///< the four fields below `odometer` are valid
+    S16 odometer_q6_bin{0};           ///< rim travel since the last cycle, forward positive
+    S16 middle_height_q4_mm{0};       ///< z(1), above the rear contact
+    S16 front_height_q4_mm{0};        ///< z(2)
+    U16 middle_distance_q6_bin{640};  ///< horizontal, ahead of the rear contact; [64, 960]
+    U16 front_distance_q6_bin{1280};  ///< [middle + 64, 1408]
+    uint8_t ahead_count = 0;          ///< [0, kLookAheadMax]
+    S16 ahead_height_q4_mm[kLookAheadMax] = {};
+    U16 ahead_distance_q6_bin[kLookAheadMax] = {};
+};
+
+/// A point of undisturbed ground seen by the look-ahead sensor.
+struct GroundSample {
+    U16 place_q6_bin{0};
+    S16 height_q4_mm{0};
+};
+
+struct MapGrid {
+    // Load-bearing surface L = y - s at whole bins; node n lives at n modulo 32.
+    S16 surface_q4_mm[slip::kNodeCount] = {};
+    bool has_map = false;
+    bool measured = false;        ///< the rear wheel stands on ground that the front wheel measured
+    U16 lowest_q6_bin{0};         ///< place of the oldest node that is still in the ring
+    U16 measured_from_q6_bin{0};  ///< before this place the map is interpolated
+    U16 front_place_q6_bin{0};    ///< last sample of the front wheel
+    S16 front_height_q4_mm{0};
+    S16 front_height_before_q4_mm{0};
+
+    U16 place_q6_bin{0};                        ///< rear contact
+    S32 travelled_q6_bin{0};                    ///< the same, never wrapped
+    S16 advance_q6_bin{0};                      ///< of the last cycle
+    S16 mean_q12_bin{slip::kMeanNoSlipQ12Bin};  ///< learned advance of a 6 cm cycle
+    U16 rough_q8_mm{slip::kInitialRoughQ8Mm};
+    U16 match_cost_q10{slip::kInitialCostQ10};
+    uint8_t learned = 0, rough_count = 0;
+
+    U32 variance_q12{0};   ///< of the position, (1/64 bin)^2
+    U32 drift_q12_bin{0};  ///< systematic part of the position uncertainty
+
+    GroundSample sample[slip::kSampleCount] = {};  ///< by place, nearest first
+    uint8_t sample_count = 0;
+    uint8_t sinkage_count = 0;
+    bool sinkage_valid = false;
+    S16 sinkage_smooth_q6_mm{0};
+    U16 sinkage_size_q8_mm{0};
+    S16 sinkage_q4_mm{0};
+
+    SlipMode mode = SlipMode::odometry_only;
+    bool slip_alarm = false, sinkage_alarm = false, lost_lock = false;
+};
+
+/// b - a for places modulo 2^16: positive when b is ahead.
+constexpr S16 ahead_of(U16 a_q6_bin, U16 b_q6_bin) {
+    return narrow_wrap_s16(sub_wrap(b_q6_bin, a_q6_bin));
+}
+
+}  // namespace rover

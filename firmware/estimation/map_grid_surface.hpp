@@ -1,0 +1,127 @@
+// map_grid_surface.hpp - the map of the load-bearing surface: look-up, start, extension,
+// correction. Depends on   map_grid_state.hpp. Source       Wilcox 1994, steps 3 and 4, on a fixed
+// world grid (docs/design/slip-and-sinkage.md). Bounds       every loop runs over at most the 32
+// nodes of the ring.
+#pragma once
+
+#include "firmware/estimation/map_grid_state.hpp"
+
+namespace rover::slip {
+
+/// Node whose place is at or just before `place`.
+constexpr U16 node_before(U16 place_q6_bin) {
+    return shift_floor<6>(place_q6_bin);
+}
+
+constexpr uint8_t ring_index(U16 node) {
+    return native(narrow_wrap_u8(bit_and(node, U16{kNodeCount - 1u})));
+}
+constexpr S16& node_height(MapGrid& map, U16 node) {
+    return map.surface_q4_mm[ring_index(node)];
+}
+constexpr S16 node_height(const MapGrid& map, U16 node) {
+    return map.surface_q4_mm[ring_index(node)];
+}
+
+/// Surface at any place, s16 Q4 mm: linear between nodes, rounded half up.
+constexpr S16 surface_at(const MapGrid& map, U16 place_q6_bin) {
+    const U16 node = node_before(place_q6_bin);
+    const U8 fraction_q6 = narrow_wrap_u8(bit_and(place_q6_bin, U16{63}));
+    return lerp_q6(node_height(map, node), node_height(map, add_wrap(node, U16{1})), fraction_q6);
+}
+
+/// value + (target - value) * gain / 256, rounded half up.
+constexpr S16 approach(S16 value, S16 target, uint8_t gain_q8) {
+    const S32 step = mul_wide(sub_sat(target, value), U8{gain_q8});
+    return add_wrap(value, narrow_wrap_s16(shift_round_half_up<8>(step)));
+}
+
+constexpr void drop_map(MapGrid& map) {
+    map.has_map = false;
+    map.measured = false;
+    map.sample_count = 0;
+    map.sinkage_count = 0;
+    map.sinkage_valid = false;
+}
+
+/// Writes nodes from the one after `from` up to `to`: a straight line between the two heights, and
+/// the first node beyond `to` at the height of `to`, so that the surface has a value up to there.
+constexpr void fill_line(MapGrid& map, U16 from_q6_bin, S16 from_q4_mm, U16 to_q6_bin,
+                         S16 to_q4_mm) {
+    const U16 length = sub_wrap(to_q6_bin, from_q6_bin);
+    const U16 per_length_q16 = div_floor(U16{65535}, length);
+    U16 node = add_wrap(node_before(from_q6_bin), U16{1});
+    for (uint8_t i = 0; i < kNodeCount; ++i) {
+        const U16 along = sub_wrap(shift_left_wrap<6>(node), from_q6_bin);
+        if (along >= length) break;
+        const U8 fraction_q8 =
+            narrow_sat_u8(shift_round_half_up<8>(mul_wide(along, per_length_q16)));
+        node_height(map, node) = lerp_q8(from_q4_mm, to_q4_mm, fraction_q8);
+        node = add_wrap(node, U16{1});
+    }
+    node_height(map, node) = to_q4_mm;
+    if (bit_and(to_q6_bin, U16{63}) == U16{0}) {
+        node = add_wrap(node, U16{1});
+        node_height(map, node) = to_q4_mm;
+    }
+    const U16 oldest_q6_bin = sub_wrap(shift_left_wrap<6>(node), U16{(kNodeCount - 1u) * 64u});
+    if (ahead_of(map.lowest_q6_bin, oldest_q6_bin) > S16{0}) map.lowest_q6_bin = oldest_q6_bin;
+}
+
+/// Starts a map from the three contacts: straight lines between them. Ground counts as measured
+/// from the front wheel's place on.
+constexpr void begin_map(MapGrid& map, const MapGridInput& input) {
+    const U16 middle = add_wrap(map.place_q6_bin, input.middle_distance_q6_bin);
+    const U16 front = add_wrap(map.place_q6_bin, input.front_distance_q6_bin);
+    const U16 rear_node = node_before(map.place_q6_bin);
+    map.lowest_q6_bin = shift_left_wrap<6>(rear_node);
+    node_height(map, rear_node) = S16{0};
+    fill_line(map, map.place_q6_bin, S16{0}, middle, input.middle_height_q4_mm);
+    fill_line(map, middle, input.middle_height_q4_mm, front, input.front_height_q4_mm);
+    map.front_place_q6_bin = front;
+    map.front_height_q4_mm = input.front_height_q4_mm;
+    map.front_height_before_q4_mm = input.front_height_q4_mm;
+    map.measured_from_q6_bin = front;
+    map.measured = false;
+    map.has_map = true;
+}
+
+/// Running mean of |second difference| of successive front-wheel heights: what a straight line
+/// between samples misses.
+constexpr void learn_roughness(MapGrid& map, S16 front_height_q4_mm) {
+    const S16 step = sub_wrap(front_height_q4_mm, map.front_height_q4_mm);
+    const S16 step_before = sub_wrap(map.front_height_q4_mm, map.front_height_before_q4_mm);
+    const U16 bend_q4_mm = abs_u16(sub_sat(step, step_before));
+    const U16 bend_q8_mm = min(shift_left_sat<4>(bend_q4_mm), U16{kRoughMaxQ8Mm});
+    map.rough_q8_mm =
+        narrow_wrap_u16(approach(narrow_wrap_s16(map.rough_q8_mm), narrow_wrap_s16(bend_q8_mm),
+                                 kLearnGainQ8[map.rough_count]));
+    if (map.rough_count < kLearnSteps) ++map.rough_count;
+}
+
+/// Extends the map to the front wheel and splits the middle wheel's misfit over its two nodes.
+/// @return  height of the rear contact, s16 Q4 mm: mean of what rear and middle wheel say
+constexpr S16 extend_map(MapGrid& map, const MapGridInput& input) {
+    const U16 middle = add_wrap(map.place_q6_bin, input.middle_distance_q6_bin);
+    const S16 by_rear = surface_at(map, map.place_q6_bin);
+    const S16 by_middle = sub_wrap(surface_at(map, middle), input.middle_height_q4_mm);
+    const S16 rear = add_wrap(by_rear, halve_floor(sub_wrap(by_middle, by_rear)));
+    const S16 front_height = add_wrap(rear, input.front_height_q4_mm);
+    const U16 front = add_wrap(map.place_q6_bin, input.front_distance_q6_bin);
+    if (ahead_of(map.front_place_q6_bin, front) >= S16{0}) {
+        fill_line(map, map.front_place_q6_bin, map.front_height_q4_mm, front, front_height);
+        learn_roughness(map, front_height);
+        map.front_height_before_q4_mm = map.front_height_q4_mm;
+        map.front_place_q6_bin = front;
+        map.front_height_q4_mm = front_height;
+    }
+    const S16 misfit = sub_wrap(add_wrap(rear, input.middle_height_q4_mm), surface_at(map, middle));
+    const S16 half = shift_round_half_up<1>(misfit);
+    const U16 node = node_before(middle);
+    node_height(map, node) = add_wrap(node_height(map, node), half);
+    const U16 next = add_wrap(node, U16{1});
+    node_height(map, next) = add_wrap(node_height(map, next), half);
+    return rear;
+}
+
+}  // namespace rover::slip
