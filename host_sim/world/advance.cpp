@@ -1,3 +1,4 @@
+// advance.cpp - one draw of the advance per odometer cycle.
 #include "host_sim/world/advance.hpp"
 
 #include <algorithm>

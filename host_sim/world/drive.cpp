@@ -1,3 +1,4 @@
+// drive.cpp - order of a step: wheels, hand moves, linkage, sensors, faults.
 #include "host_sim/world/drive.hpp"
 
 #include <algorithm>

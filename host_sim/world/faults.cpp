@@ -1,3 +1,4 @@
+// faults.cpp - fault plans: reading them, and what each kind does to each channel.
 #include "host_sim/world/faults.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 //          the horizon, R = rocker, b = bogie arm:
 //            middle  x + R cos rho - b cos beta,  z(1) = R sin rho - b sin beta above the rear
 //            wheel front   x + R cos rho + b cos beta,  z(2) = R sin rho + b sin beta
-// Bounds   at most kLinkageIterations steps, then kBisections^2; never fails to return a pose.
+// Bounds   at most kLinkageIterations steps, then kRootSteps^2; never fails to return a pose.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 namespace host_sim {
 
 inline constexpr int kLinkageIterations = 60;
-inline constexpr int kBisections = 60;
+inline constexpr int kRootSteps = 100;
 inline constexpr double kLinkageToleranceCm = 1e-7;
 inline constexpr double kRangeReachCm = 100;    ///< look-ahead heights beyond +-1 m are not seen
-inline constexpr double kSteepestSine = 0.985;  ///< bisection looks between -80 and +80 degrees
+inline constexpr double kSteepestSine = 0.985;  ///< bracketing looks between -80 and +80 degrees
 
 struct LinkageGeometry {
     double rocker_cm = 37.5;
@@ -25,9 +25,9 @@ struct LinkageGeometry {
 };
 
 enum class LinkageMethod : std::uint8_t {
-    iteration,  ///< ordinary ground: residual below kLinkageToleranceCm
-    bisection,  ///< rough ground: solved by nested bisection, residual below 1e-6 cm
-    nearest     ///< no pose puts all wheels on the ground: the pose with the smallest residual seen
+    iteration,   ///< ordinary ground: residual below kLinkageToleranceCm
+    bracketing,  ///< rough ground: solved by nested root bracketing, residual below 1e-6 cm
+    nearest  ///< no pose puts all wheels on the ground: the pose with the smallest residual seen
 };
 
 struct LinkagePose {
@@ -42,6 +42,35 @@ struct LinkagePose {
 };
 
 namespace linkage_detail {
+
+// A root of a continuous f with f(low) >= 0 >= f(high): false position with the Illinois
+// correction, every third step a bisection, so that steep and flat parts do no harm. Where f has no
+// root but jumps, the place of the jump.
+template <typename Function>
+double find_root(const Function& f, double low, double high) {
+    double f_low = f(low);
+    double f_high = f(high);
+    double x = 0.5 * (low + high);
+    int kept = 0;  // ends kept in succession: below 0 the lower one
+    for (int i = 0; i < kRootSteps && high - low > 1e-15; ++i) {
+        const bool bisect = i % 3 == 2 || !(f_low > f_high);
+        x = bisect ? 0.5 * (low + high) : low + (high - low) * f_low / (f_low - f_high);
+        const double f_x = f(x);
+        if (std::abs(f_x) < 1e-13) break;
+        if (f_x > 0) {
+            low = x;
+            f_low = f_x;
+            if (kept > 0) f_high *= 0.5;
+            kept = 1;
+        } else {
+            high = x;
+            f_high = f_x;
+            if (kept < 0) f_low *= 0.5;
+            kept = -1;
+        }
+    }
+    return x;
+}
 
 // One side in the unknowns u = sin rho, v = sin beta.
 template <typename Surface>
@@ -74,13 +103,7 @@ struct Side {
     // The bogie's sine that puts both of its wheels equally far from the surface; one always
     // exists, because at the vertical the wheels stand over one point.
     [[nodiscard]] double bogie_sine(double u) const {
-        double low = -1.0;
-        double high = 1.0;
-        for (int i = 0; i < kBisections; ++i) {
-            const double middle = 0.5 * (low + high);
-            (fit(u, middle).v_wanted > middle ? low : high) = middle;
-        }
-        return 0.5 * (low + high);
+        return find_root([&](double v) { return fit(u, v).v_wanted - v; }, -1.0, 1.0);
     }
     [[nodiscard]] LinkagePose pose(double u, double v, LinkageMethod method) const {
         const double pivot_cm = pivot_x_cm(u);
@@ -133,17 +156,14 @@ LinkagePose solve_linkage(const LinkageGeometry& geometry, const Surface& surfac
         u = std::clamp(u + gain * (fit.u_wanted - u), -kSteepestSine, kSteepestSine);
         v = std::clamp(v + gain * (fit.v_wanted - v), -kSteepestSine, kSteepestSine);
     }
-    double low = -kSteepestSine;
-    double high = kSteepestSine;
-    for (int i = 0; i < kBisections; ++i) {
-        u = 0.5 * (low + high);
-        v = side.bogie_sine(u);
-        const auto fit = side.fit(u, v);
-        keep_best(fit.residual_cm);
-        (fit.u_wanted > u ? low : high) = u;
-    }
+    const auto rocker_miss = [&](double sine) {
+        return side.fit(sine, side.bogie_sine(sine)).u_wanted - sine;
+    };
+    u = linkage_detail::find_root(rocker_miss, -kSteepestSine, kSteepestSine);
+    v = side.bogie_sine(u);
+    keep_best(side.fit(u, v).residual_cm);
     return side.pose(best_u, best_v,
-                     best_cm < 1e-6 ? LinkageMethod::bisection : LinkageMethod::nearest);
+                     best_cm < 1e-6 ? LinkageMethod::bracketing : LinkageMethod::nearest);
 }
 
 /// What the body carries into the view of a look-ahead sample.
@@ -190,17 +210,12 @@ RangeSight look_ahead(const RangeView& view, double ahead_cm, const Ground& grou
         const double gain = i < kLinkageIterations / 2 ? 1.0 : 0.5;
         sight.height_cm += gain * miss_cm / pitch_cos;
     }
-    // Rough ground: the line of points is straight, so it is cut by bisection.
+    // Rough ground: the line of points is straight, so it is cut between two brackets.
     const auto miss = [&](double height_cm) {
         return ground(base_x - height_cm * pitch_sin) - (base_y + height_cm * pitch_cos);
     };
-    double low = -kRangeReachCm;
-    double high = kRangeReachCm;
-    if (!(miss(low) > 0) || !(miss(high) < 0)) return sight;
-    for (int i = 0; i < kBisections; ++i) {
-        sight.height_cm = 0.5 * (low + high);
-        (miss(sight.height_cm) > 0 ? low : high) = sight.height_cm;
-    }
+    if (!(miss(-kRangeReachCm) > 0) || !(miss(kRangeReachCm) < 0)) return sight;
+    sight.height_cm = linkage_detail::find_root(miss, -kRangeReachCm, kRangeReachCm);
     sight.x_cm = base_x - sight.height_cm * pitch_sin;
     sight.seen = std::abs(miss(sight.height_cm)) < 1e-6;
     return sight;

@@ -1,3 +1,4 @@
+// profile.cpp - measured profiles: reading, resampling, joining, roughness.
 #include "host_sim/world/profile.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// random.cpp - layers and rare branches of the ziggurat.
 #include "host_sim/world/random.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// sensors.cpp - converter, tachometers and look-ahead module.
 #include "host_sim/world/sensors.hpp"
 
 #include <algorithm>

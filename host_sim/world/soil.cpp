@@ -1,3 +1,4 @@
+// soil.cpp - least-squares fit of the sinkage law.
 #include "host_sim/world/soil.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// terrain.cpp - sums of sines by rotation, statistics.
 #include "host_sim/world/terrain.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// text_file.cpp - whole files, numbers and CSV rows.
 #include "host_sim/world/text_file.hpp"
 
 #include <charconv>

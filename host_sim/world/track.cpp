@@ -1,3 +1,4 @@
+// track.cpp - the rut: depth settles sample by sample as the front wheel comes.
 #include "host_sim/world/track.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// vehicle.cpp - vehicle descriptions from TOML, checked key by key.
 #include "host_sim/world/vehicle.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// advance_test.cpp - moments of the paper's distributions.
 #include "host_sim/world/advance.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// drive_test.cpp - motion, geometry and determinism of the whole vehicle.
 #include "host_sim/world/drive.hpp"
 
 #include <gtest/gtest.h>

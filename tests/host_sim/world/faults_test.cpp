@@ -1,3 +1,4 @@
+// faults_test.cpp - every kind on every group of channels.
 #include "host_sim/world/faults.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// linkage_test.cpp - against planes, steps and the definition of the pose.
 #include "host_sim/world/linkage.hpp"
 
 #include <gtest/gtest.h>

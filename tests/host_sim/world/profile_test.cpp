@@ -1,3 +1,4 @@
+// profile_test.cpp - known curves, damaged files, the Mars profiles.
 #include "host_sim/world/profile.hpp"
 
 #include <gtest/gtest.h>

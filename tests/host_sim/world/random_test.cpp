@@ -1,3 +1,4 @@
+// random_test.cpp - against published sequences and distributions.
 #include "host_sim/world/random.hpp"
 
 #include <gtest/gtest.h>

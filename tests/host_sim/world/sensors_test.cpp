@@ -1,3 +1,4 @@
+// sensors_test.cpp - against the converter's definition and the stated noise.
 #include "host_sim/world/sensors.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// soil_test.cpp - known laws, damaged tables, the sand data set.
 #include "host_sim/world/soil.hpp"
 
 #include <gtest/gtest.h>

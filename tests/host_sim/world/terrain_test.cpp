@@ -1,3 +1,4 @@
+// terrain_test.cpp - against the paper's table of terrain statistics and std::sin.
 #include "host_sim/world/terrain.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// track_test.cpp - what the front wheel leaves, the others find.
 #include "host_sim/world/track.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// vehicle_test.cpp - the built-in description, and refusals with line and key.
 #include "host_sim/world/vehicle.hpp"
 
 #include <gtest/gtest.h>
