@@ -26,6 +26,7 @@ using detail::quote;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Truth kNoTruth{kNan, kNan, kNan, kNan, kNan, kNan};
+constexpr std::size_t kReserveMax = 100'000;  ///< steps; a rubbish file must not claim memory
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 struct Column {
@@ -142,7 +143,9 @@ Log CsvReader::read() {
         fail("the header line with the column names is missing", detail::kFormatAdvice);
     log.head = head_.head();
     for (std::size_t start = at_; next_line(line); start = at_) {
-        if (log.steps.empty()) log.steps.reserve(text_.size() / (line.size() + 1) + 1);
+        if (log.steps.empty()) {
+            log.steps.reserve(std::min(text_.size() / (line.size() + 1) + 1, kReserveMax));
+        }
         if (!line.starts_with('#')) {
             read_row(line, log);
         } else if (!line.starts_with(detail::kCsvChecksumPrefix)) {
@@ -162,9 +165,8 @@ void CsvReader::read_header(std::string_view line) {
     if (first != detail::kTimeColumn) {
         fail(fmt::format("not a rover85 log: the first column is {} and not {}", quote(first),
                          detail::kTimeColumn),
-             line.find(',') == std::string_view::npos && line.size() > first.size()
-                 ? "separate the columns by commas"
-                 : detail::kFormatAdvice);
+             first.find_first_of(";\t") != std::string_view::npos ? "separate columns by commas"
+                                                                  : detail::kFormatAdvice);
     }
     for (std::size_t at = first.size(); at < line.size();) {
         const std::size_t end = std::min(line.find(',', at + 1), line.size());

@@ -1,5 +1,5 @@
-// csv_write.cpp - a log as wide CSV. Cells go through to_chars into a row buffer: a million steps
-// are some hundred megabytes, and formatted streams would take minutes.
+// csv_write.cpp - a log as wide CSV. Cells go through to_chars into a row buffer: formatted streams
+// would take most of the time of a simulated traverse.
 #include <fmt/format.h>
 #include <zlib.h>
 

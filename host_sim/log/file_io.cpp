@@ -42,6 +42,11 @@ std::string_view advice_for(int error) {
     }
 }
 
+[[noreturn]] void refuse_size(const std::filesystem::path& path) {
+    throw LogError(path.string(), {}, "is larger than 2 GiB",
+                   "split the recording into shorter logs");
+}
+
 }  // namespace
 
 void fail_system(const std::filesystem::path& path, std::string_view action, int error) {
@@ -54,6 +59,7 @@ std::string read_file(const std::filesystem::path& path) {
     if (file.value < 0) fail_system(path, "cannot be opened", errno);
     struct stat status = {};
     if (::fstat(file.value, &status) != 0) fail_system(path, "cannot be read", errno);
+    if (static_cast<std::size_t>(status.st_size) > kFileSizeMax) refuse_size(path);
     std::string content;
     std::size_t size = 0;
     content.resize(S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) + 1 : 65536);
@@ -64,10 +70,7 @@ std::string read_file(const std::filesystem::path& path) {
         if (count < 0) fail_system(path, "cannot be read", errno);
         if (count == 0) break;
         size += static_cast<std::size_t>(count);
-        if (size > kFileSizeMax) {
-            throw LogError(path.string(), {}, "is larger than 2 GiB",
-                           "split the recording into shorter logs");
-        }
+        if (size > kFileSizeMax) refuse_size(path);
     }
     content.resize(size);
     return content;

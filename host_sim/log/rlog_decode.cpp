@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -16,7 +17,8 @@ namespace host_sim {
 namespace detail {
 namespace {
 
-constexpr std::string_view kForeignAdvice = "give an .rlog or a wide CSV";
+constexpr std::string_view kForeignAdvice = "give an .rlog file";
+constexpr std::size_t kReserveMax = 100'000;  ///< steps; a rubbish file must not claim memory
 
 /// A payload error before it has the file's name and offset.
 struct PayloadError {
@@ -269,6 +271,7 @@ void RlogParser::decode_head(std::string_view payload) {
 }
 
 void RlogParser::decode_step(std::string_view payload, LogStep& step) {
+    step = {};
     Cursor cursor(payload);
     step.time_ms = static_cast<std::uint32_t>(cursor.number<4>());
     if (step.time_ms <= last_time_ms_) {
@@ -297,7 +300,7 @@ Log read_rlog(std::string_view bytes, std::string_view name) {
     detail::RlogParser parser(bytes, name);
     Log log;
     log.head = parser.take_head();
-    log.steps.reserve(bytes.size() / 256);
+    log.steps.reserve(std::min(bytes.size() / 256, detail::kReserveMax));
     while (parser.next(log.steps.emplace_back())) {
     }
     log.steps.pop_back();

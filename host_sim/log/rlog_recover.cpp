@@ -21,10 +21,7 @@ std::string_view salvage_rlog(std::string_view bytes, std::string_view name, Rec
     detail::RlogParser parser(bytes, name);
     try {
         LogStep step;
-        while (parser.next(step)) {
-            ++recovery.steps;
-            step = {};
-        }
+        while (parser.next(step)) ++recovery.steps;
     } catch (const LogError& error) {
         recovery.reason = error.what();
     }

@@ -233,6 +233,8 @@ TEST(Csv, RefusesWrongHeaderLines) {
     EXPECT_TRUE(refused_at("time_ms,time_ms\n", 1, "time_ms appears twice"));
     EXPECT_TRUE(refused_at("tick_count,time_ms\n", 1, "first column is \"tick_count\""));
     EXPECT_TRUE(refused_at("time_ms;tick_count\n", 1, "first column is \"time_ms;tick_count\""));
+    EXPECT_TRUE(refused_at("time_ms;tick_count\n", 1, "; separate columns by commas"));
+    EXPECT_TRUE(refused_at("time\ttick\n", 1, "; separate columns by commas"));
     EXPECT_TRUE(refused_at("\n", 1, "first column is \"\""));
     EXPECT_TRUE(
         refused_at("## only a comment\n", 1, "header line with the column names is missing"));

@@ -108,6 +108,22 @@ TEST_F(LogFiles, OddPathsAreRefusedWithTheReason) {
               std::string::npos);
 }
 
+TEST_F(LogFiles, AFileBeyondTwoGigabytesIsRefusedBeforeItIsRead) {
+    put(path("huge"), "time_ms\n");
+    fs::resize_file(path("huge"), (std::uintmax_t{1} << 31) + 1);  // sparse: takes no space
+    EXPECT_EQ(
+        error_of([&] { load_log(path("huge")); }),
+        path("huge").string() + ": is larger than 2 GiB; split the recording into shorter logs");
+}
+
+TEST_F(LogFiles, WritingThroughALinkReplacesTheFileItNames) {
+    put(path("target.csv"), "an older file");
+    fs::create_symlink(path("target.csv"), path("link.csv"));
+    host_sim::write_csv(path("link.csv"), small_log());
+    EXPECT_TRUE(fs::is_symlink(path("link.csv")));
+    EXPECT_TRUE(log_test::same(load_log(path("target.csv")), small_log()));
+}
+
 TEST_F(LogFiles, AFullDiskIsReported) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
     EXPECT_NE(

@@ -29,7 +29,7 @@ private:
 
 inline std::string little(std::uint64_t value, int bytes) {
     std::string out;
-    for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xFFu);
+    for (; bytes > 0; --bytes, value >>= 8) out += static_cast<char>(value & 0xFFu);
     return out;
 }
 
