@@ -132,13 +132,24 @@ bool is_evaluated_by_compiler(const std::string& head) {
     return matches(head, kEvaluated);
 }
 
-Scope classify(const std::string& head, bool inside_function) {
+bool is_function_head(const std::string& head) {
     static const std::regex kFunction(R"(\)\s*((const|noexcept|override|final|mutable)\s*)*)"
                                       R"((->\s*[\w:<>,&*\s]+)?(requires\s.*)?$)");
+    return matches(head, kFunction);
+}
+
+/// A head that ends at a semicolon: a function without its body, as opposed to data, an assertion
+/// or a deleted function.
+bool is_function_declaration(const std::string& head) {
+    static const std::regex kOther(R"(\b(static_assert|using|typedef|friend)\b)");
+    return is_function_head(head) && !matches(head, kOther) && head.find('=') == std::string::npos;
+}
+
+Scope classify(const std::string& head, bool inside_function) {
     static const std::regex kConstructor(R"(\)\s*:\s.*[)}]\s*$)");
     static const std::regex kContainer(R"(\b(namespace|class|struct|union|enum|extern)\b)");
     if (inside_function) return Scope::control;
-    if (matches(head, kFunction) || matches(head, kConstructor)) return Scope::function;
+    if (is_function_head(head) || matches(head, kConstructor)) return Scope::function;
     if (matches(head, kContainer)) return Scope::container;
     return Scope::initializer;
 }
@@ -174,6 +185,9 @@ private:
             close();
         } else if (c == ';' && parentheses_ == 0) {
             note_constant();
+            if (!inside_function() && is_function_declaration(head_)) {
+                result_.declares_functions = true;
+            }
             head_.clear();
         } else {
             if (c == '(') ++parentheses_;

@@ -28,6 +28,7 @@ struct FunctionSpan {
 /// Structure of a blanked text.
 struct CodeStructure {
     std::vector<FunctionSpan> functions;
+    bool declares_functions = false;  ///< a declaration without a body stands somewhere
     std::vector<bool> constant_line;  ///< [line - 1]: everything there is computed at compile time
 };
 

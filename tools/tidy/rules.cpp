@@ -124,7 +124,6 @@ Rules parse_rules(std::string_view toml_text) {
     read_limits(section(root, "limits"), rules);
     rules.include_directories = required_strings(section(root, "includes"), "directories");
     rules.mirror_paths = required_strings(section(root, "mirror"), "paths");
-    rules.mirror_except_files = strings(section(root, "mirror"), "except_files");
     each(constant_root["layer"], [&](const toml::table& entry) {
         rules.layers.push_back(
             {required<std::string>(entry, "path"), required_strings(entry, "may_include")});

@@ -73,7 +73,6 @@ struct Rules {
     std::vector<std::string> include_directories;
     std::vector<Layer> layers;
     std::vector<std::string> mirror_paths;
-    std::vector<std::string> mirror_except_files;
     std::vector<ForbiddenPattern> forbidden;
     std::vector<Exemption> exemptions;
 };

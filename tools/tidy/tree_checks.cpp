@@ -196,17 +196,24 @@ std::vector<Violation> check_includes(const std::vector<SourceFile>& files, cons
 
 std::vector<Violation> check_mirror(const std::vector<SourceFile>& files, const Rules& rules) {
     const PathSet paths = paths_of(files);
-    std::vector<Violation> found;
-    PathSet reported;
+    PathSet included_by_mirror;
     for (const SourceFile& file : files) {
-        if (!is_cpp(file) || !under_any(file.path, rules.mirror_paths)) continue;
-        if (ends_with_any(file.path, rules.mirror_except_files)) continue;
-        const std::string stem = fs::path(file.path).replace_extension().generic_string();
-        const std::string test = "tests/" + stem + "_test.cpp";
-        if (paths.contains(test) || reported.contains(stem)) continue;
-        if (scan_structure(blank_comments_and_literals(file.text)).functions.empty()) continue;
-        reported.insert(stem);
-        found.push_back({file.path, 0, "mirror", "no " + test});
+        if (!file.path.starts_with("tests/") || !is_cpp(file)) continue;
+        const fs::path folder = fs::path(file.path.substr(6)).parent_path();
+        for (const Include& include : includes_of(file, paths, rules)) {
+            if (fs::path(include.file).parent_path() == folder) {
+                included_by_mirror.insert(include.file);
+            }
+        }
+    }
+    std::vector<Violation> found;
+    for (const SourceFile& file : files) {
+        if (!file.path.ends_with(".hpp") || !under_any(file.path, rules.mirror_paths)) continue;
+        if (included_by_mirror.contains(file.path)) continue;
+        const CodeStructure code = scan_structure(blank_comments_and_literals(file.text));
+        if (code.functions.empty() && !code.declares_functions) continue;
+        const std::string folder = "tests/" + fs::path(file.path).parent_path().generic_string();
+        found.push_back({file.path, 0, "mirror", "no test in " + folder + " includes it"});
     }
     return found;
 }

@@ -10,8 +10,8 @@ namespace tidy {
 /// Includes follow the layers, name files that exist and form no cycle.
 std::vector<Violation> check_includes(const std::vector<SourceFile>& files, const Rules& rules);
 
-/// Every source with a function in it has tests/<path>/<name>_test.cpp. A header and its source
-/// share one test.
+/// Every header that defines or declares a function is included by a test in the folder that
+/// mirrors its own: host_sim/log/x.hpp by a file of tests/host_sim/log.
 std::vector<Violation> check_mirror(const std::vector<SourceFile>& files, const Rules& rules);
 
 /// Relative links of Markdown pages lead to tracked files, folders and headings; programs in their

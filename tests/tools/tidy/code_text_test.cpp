@@ -88,6 +88,18 @@ TEST(ScanStructure, DataAndTypesAreNoFunctions) {
     }
 }
 
+TEST(ScanStructure, DeclarationsOfFunctionsAreSeen) {
+    for (const char* text : {"void f(int x);", "struct S {\n    int g() const noexcept;\n};",
+                             "auto f(int x,\n       int y) -> int;"}) {
+        EXPECT_TRUE(scan_structure(text).declares_functions) << text;
+    }
+    for (const char* text : {"int a = f(1);", "static_assert(sizeof(int) == 4);",
+                             "struct S {\n    S() = delete;\n    int a{f(1)};\n};",
+                             "using F = void (int);", "void f() { g(1); }"}) {
+        EXPECT_FALSE(scan_structure(text).declares_functions) << text;
+    }
+}
+
 TEST(ScanStructure, ConstantLinesAreThoseTheCompilerEvaluates) {
     const CodeStructure code = scan_structure(
         "constexpr double kA = 1.5;\n"      // 1 constant
