@@ -15,9 +15,13 @@ namespace {
 constexpr int kExitUsage = 2;
 constexpr int kExitBadInput = 3;
 
-void write_tables(const std::filesystem::path& folder) {
-    std::filesystem::create_directories(folder);
+void write_tables(const std::filesystem::path& root) {
     for (const tablegen::Table& table : tablegen::firmware_tables()) {
+        const std::filesystem::path folder = root / table.folder;
+        if (!std::filesystem::is_directory(folder)) {
+            throw std::runtime_error(fmt::format(
+                "{}: no such folder; run in the project's root or give --root", folder.string()));
+        }
         const std::filesystem::path path = folder / table.file;
         std::ofstream out(path, std::ios::binary);
         out << tablegen::render(table);
@@ -33,14 +37,14 @@ void write_tables(const std::filesystem::path& folder) {
 int run(int argc, char** argv) {
     CLI::App app{
         "Tables of the firmware, computed in double precision.\n\n"
-        "  tablegen write                             rewrite firmware/core/tables\n"
+        "  tablegen write                             rewrite every table, run in the root\n"
         "  tablegen accuracy                          measure sine, atan2, isqrt\n"
         "  tablegen square --scale 0.16 --entries 256 print a table of squares\n"};
     app.require_subcommand(1);
 
-    std::string folder = "firmware/core/tables";
+    std::string root = ".";
     CLI::App* write = app.add_subcommand("write", "Write every table of the firmware as a header");
-    write->add_option("--out", folder, "Folder of the headers")->capture_default_str();
+    write->add_option("--root", root, "Root of the project")->capture_default_str();
 
     CLI::App* accuracy =
         app.add_subcommand("accuracy", "Print the errors of the core functions as a table");
@@ -59,7 +63,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : kExitUsage;
     }
-    if (*write) write_tables(folder);
+    if (*write) write_tables(root);
     if (*accuracy) fmt::print("{}", tablegen::accuracy_table(tablegen::measure_accuracy()));
     if (*square) {
         fmt::print("{}", tablegen::render(tablegen::square_table(name, entries, scale)));

@@ -11,7 +11,9 @@ namespace tablegen {
 
 /// One table and everything its header says.
 struct Table {
-    std::string file;                  ///< "sine_table.hpp"
+    std::string folder = "firmware/core/tables";  ///< from the project's root
+    std::string file;                             ///< "sine_table.hpp"
+    std::string name_space = "rover";
     std::string name;                  ///< "kSineQuarterQ16"
     std::vector<std::string> purpose;  ///< comment lines: contents, use, error bound
     std::string element = "uint16_t";  ///< element type
@@ -32,7 +34,10 @@ Table arctangent_table();
 Table square_table(const std::string& name, int entries, double scale,
                    const std::string& file = "square_table.hpp");
 
-/// Every table that firmware/core/tables holds.
+/// Squares of the flying estimator: index 1/16 sigma, entry 1/64 of a squared sigma.
+Table match_square_table();
+
+/// Every table of the firmware.
 std::vector<Table> firmware_tables();
 
 /// The header that holds `table`; ends in a newline.

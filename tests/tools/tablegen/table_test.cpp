@@ -14,12 +14,11 @@
 
 namespace {
 
-const std::filesystem::path kFolder =
-    std::filesystem::path(ROVER_SOURCE_DIR) / "firmware" / "core" / "tables";
+const std::filesystem::path kRoot{ROVER_SOURCE_DIR};
 
 TEST(FirmwareTables, AreTheCommittedHeadersByteForByte) {
     for (const tablegen::Table& table : tablegen::firmware_tables()) {
-        std::ifstream in(kFolder / table.file, std::ios::binary);
+        std::ifstream in(kRoot / table.folder / table.file, std::ios::binary);
         ASSERT_TRUE(in) << table.file << " is missing: run `tablegen write`";
         const std::string committed{std::istreambuf_iterator<char>(in), {}};
         EXPECT_EQ(committed, tablegen::render(table))
@@ -27,12 +26,18 @@ TEST(FirmwareTables, AreTheCommittedHeadersByteForByte) {
     }
 }
 
-TEST(FirmwareTables, AreAllOfTheFolder) {
-    std::set<std::string> expected;
-    for (const tablegen::Table& table : tablegen::firmware_tables()) expected.insert(table.file);
-    std::set<std::string> found;
-    for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
-        found.insert(entry.path().filename().string());
+TEST(FirmwareTables, AreAllOfTheirFolders) {
+    std::set<std::filesystem::path> expected;
+    std::set<std::filesystem::path> folders;
+    for (const tablegen::Table& table : tablegen::firmware_tables()) {
+        folders.insert(kRoot / table.folder);
+        expected.insert(kRoot / table.folder / table.file);
+    }
+    std::set<std::filesystem::path> found;
+    for (const auto& folder : folders) {
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            found.insert(entry.path());
+        }
     }
     EXPECT_EQ(found, expected);
 }
@@ -63,6 +68,14 @@ TEST(SquareTable, RoundsAndSaturates) {
     EXPECT_EQ(values[209], 65522);  // 65521.5
     EXPECT_EQ(values[210], 65535);  // 66150 saturates
     EXPECT_EQ(values[255], 65535);
+}
+
+// 16 steps are one sigma, whose square is 64; 255 steps are 15.94 sigma, squared 254.0.
+TEST(MatchSquareTable, HoldsTheKnownValues) {
+    const auto values = tablegen::match_square_table().values;
+    ASSERT_EQ(values.size(), 256u);
+    EXPECT_EQ(values[16], 64);
+    EXPECT_EQ(values[255], 16256);
 }
 
 TEST(SquareTable, RefusesImpossibleArguments) {
