@@ -19,7 +19,7 @@ constexpr std::size_t kRoll = 4;
 
 std::string imu_row(double time_s, double ax, double ay, double az) {
     std::string row = std::to_string(time_s) + ",0,0,0";
-    for (const double a : {ax, ay, az}) row += "," + std::to_string(a);
+    for (const double a : {ax, ay, az}) row.append(",").append(std::to_string(a));
     return row + "\n";
 }
 
