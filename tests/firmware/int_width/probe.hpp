@@ -1,6 +1,7 @@
 // probe.hpp - what a probe group needs: deterministic inputs and a checksum of the results.
 // Both are computed in u32 by named helpers, hence the same on every target.
-// Adding a group   write a function that feeds results to a Checksum, list it in probe_groups.cpp.
+// Adding a group   write a function (Inputs&, Checksum&) and call it with run() from a file that
+//                  CMakeLists.txt lists and run_groups() calls.
 #pragma once
 
 #include "firmware/core/arith.hpp"
@@ -57,7 +58,22 @@ private:
 /// Prints one line, "probe name checksum"; provided by the target.
 void report(const char* name, uint32_t checksum);
 
-/// Runs every group; the same on every target.
-void run_groups();
+/// One group: `rounds` calls with fresh inputs, one line of output.
+template <class Check>
+void run(const char* name, uint16_t rounds, Check check) {
+    Inputs inputs;
+    Checksum sum;
+    for (uint16_t round = 0; round < rounds; ++round) check(inputs, sum);
+    report(name, sum.value());
+}
+
+/// The groups of each part; the same on every target.
+void run_core_groups();
+void run_estimation_groups();
+
+inline void run_groups() {
+    run_core_groups();
+    run_estimation_groups();
+}
 
 }  // namespace probe

@@ -1,4 +1,4 @@
-// probe_groups.cpp - runs the helpers of firmware/core over the probe inputs, group by group.
+// probe_core.cpp - runs the helpers of firmware/core over the probe inputs, group by group.
 #include "firmware/core/atan2.hpp"
 #include "firmware/core/isqrt.hpp"
 #include "firmware/core/ring.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace rover;
 
-constexpr uint16_t kRounds = 1000;
+constexpr uint16_t kRounds = 500;
 
 template <class T>
 void check_sums(Inputs& inputs, Checksum& sum) {
@@ -146,28 +146,19 @@ void check_ring(Inputs& inputs, Checksum& sum) {
     sum.add(ring.origin);
 }
 
-/// One group: kRounds calls with fresh inputs, one line of output.
-template <class Check>
-void run(const char* name, Check check) {
-    Inputs inputs;
-    Checksum sum;
-    for (uint16_t round = 0; round < kRounds; ++round) check(inputs, sum);
-    report(name, sum.value());
-}
-
 /// A group for every word type.
 template <class T>
 void run_for(const char* const (&names)[5]) {
-    run(names[0], check_sums<T>);
-    run(names[1], check_shifts<T>);
-    run(names[2], check_conversions<T>);
-    run(names[3], check_products<T>);
-    run(names[4], check_quotients<T>);
+    run(names[0], kRounds, check_sums<T>);
+    run(names[1], kRounds, check_shifts<T>);
+    run(names[2], kRounds, check_conversions<T>);
+    run(names[3], kRounds, check_products<T>);
+    run(names[4], kRounds, check_quotients<T>);
 }
 
 }  // namespace
 
-void run_groups() {
+void run_core_groups() {
     run_for<uint8_t>({"sums_u8", "shifts_u8", "conversions_u8", "products_u8", "quotients_u8"});
     run_for<int8_t>({"sums_s8", "shifts_s8", "conversions_s8", "products_s8", "quotients_s8"});
     run_for<uint16_t>(
@@ -178,12 +169,12 @@ void run_groups() {
         {"sums_u32", "shifts_u32", "conversions_u32", "products_u32", "quotients_u32"});
     run_for<int32_t>(
         {"sums_s32", "shifts_s32", "conversions_s32", "products_s32", "quotients_s32"});
-    run("narrow_quotients", check_narrow_quotients);
-    run("lerp", check_lerp);
-    run("units", check_units);
-    run("roots", check_roots);
-    run("angles", check_angles);
-    run("ring", check_ring);
+    run("narrow_quotients", kRounds, check_narrow_quotients);
+    run("lerp", kRounds, check_lerp);
+    run("units", kRounds, check_units);
+    run("roots", kRounds, check_roots);
+    run("angles", kRounds, check_angles);
+    run("ring", kRounds, check_ring);
 }
 
 }  // namespace probe
