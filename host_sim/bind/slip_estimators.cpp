@@ -10,7 +10,7 @@ std::unique_ptr<SlipEstimator> make_slip_estimator(const SlipEstimatorOptions& o
         case EstimatorKind::map_paper:
             return fixed ? make_map_paper_fixed(options) : make_map_paper_double(options);
         case EstimatorKind::map_grid:
-            throw std::invalid_argument("estimator map_grid is not in this build; use map_paper");
+            return fixed ? make_map_grid_fixed(options) : make_map_grid_double(options);
     }
     throw std::invalid_argument("unknown estimator");
 }

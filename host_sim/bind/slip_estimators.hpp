@@ -23,6 +23,12 @@ std::unique_ptr<SlipEstimator> make_map_paper_fixed(const SlipEstimatorOptions& 
 /// map_paper in double precision; any bin from 0.01 to 8 cm.
 std::unique_ptr<SlipEstimator> make_map_paper_double(const SlipEstimatorOptions& options);
 
+/// map_grid in integers, as it flies; `prior_mean_cm` is what it has learned at the start.
+/// @errors  std::invalid_argument: bin or prior sigma other than its own, prior mean not [1, 6] cm
+std::unique_ptr<SlipEstimator> make_map_grid_fixed(const SlipEstimatorOptions& options);
+/// map_grid in double precision. The same errors.
+std::unique_ptr<SlipEstimator> make_map_grid_double(const SlipEstimatorOptions& options);
+
 /// s16 Q4 mm nearest to a height in cm; what no number can express is clamped, NaN is 0.
 inline std::int16_t height_q4_mm(double height_cm) {
     const double steps = std::round(height_cm * 160.0);

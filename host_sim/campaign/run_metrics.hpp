@@ -26,7 +26,8 @@ struct RunResult {
     double sinkage_square_cm2 = 0;  ///< mean squared error of the sinkage under the front wheel
     double zero_square_cm2 = 0;     ///< the same if the answer were always 0
     bool lost_lock = false;
-    std::optional<bool> covered;  ///< final position error within the reported one sigma
+    /// Final position error within the reported one sigma; nothing if none was reported.
+    std::optional<bool> covered = std::nullopt;
     std::size_t cycles = 0;
 
     bool operator==(const RunResult&) const = default;

@@ -40,6 +40,12 @@ struct CycleInputs {
     double far_cm = 0;       ///< z(4), look-ahead sample at 80 cm
 };
 
+/// What the slip alarm compares with its two thresholds.
+struct SlipLevels {
+    double match_cost = 0;    ///< running cost of matching, squared sigmas
+    double slip_percent = 0;  ///< of the learned mean advance against the odometer
+};
+
 class SlipEstimator {
 public:
     virtual ~SlipEstimator() = default;
@@ -52,6 +58,8 @@ public:
     [[nodiscard]] virtual double sinkage_cm() const = 0;
     /// One-sigma uncertainty of the position since reset, cm; nothing if not estimated.
     [[nodiscard]] virtual std::optional<double> position_sigma_cm() const { return std::nullopt; }
+    /// Levels of the slip alarm after the last cycle; nothing if the estimator has no such alarm.
+    [[nodiscard]] virtual std::optional<SlipLevels> slip_levels() const { return std::nullopt; }
 };
 
 struct SlipEstimatorOptions {

@@ -24,7 +24,13 @@ void require(bool holds, const char* message) {
 void check(const SweepSlipOptions& options) {
     require(options.seeds >= 1 && options.seeds <= kSweepSeedsMax,
             "seeds must lie in [1, 1000000]");
-    require(options.bin_cm >= 0.25 && options.bin_cm <= 8, "bin must lie in [0.25, 8] cm");
+    if (options.estimator == EstimatorKind::map_grid) {
+        require(!options.bin_cm, "map_grid has its own bin of 2.5 cm; leave out --bin");
+        require(!options.prior_sigma_cm,
+                "map_grid has its own prior sigma of 1.25 cm; leave out --prior-sigma");
+    }
+    require(!options.bin_cm || (*options.bin_cm >= 0.25 && *options.bin_cm <= 8),
+            "bin must lie in [0.25, 8] cm");
     require(options.prior_mean_cm > 0 && options.prior_mean_cm <= 50,
             "prior mean must lie in (0, 50] cm");
     require(!options.prior_sigma_cm ||
@@ -36,10 +42,22 @@ void check(const SweepSlipOptions& options) {
             "course must be 1 m to 10 km long");
 }
 
+constexpr double kDefaultBinCm = 2.5;
+
+double bin_cm(const SweepSlipOptions& options) {
+    return options.bin_cm.value_or(kDefaultBinCm);
+}
+
+PlanarGround unit_ground(const SweepSlipOptions& options, std::uint64_t seed) {
+    const PlanarGround finest = make_planar_ground(options.terrain, seed, options.length_cm);
+    if (options.estimator == EstimatorKind::map_grid) return finest;
+    return finest.resampled(bin_cm(options));
+}
+
 SlipEstimatorOptions estimator_options(const SweepSlipOptions& options) {
     return {.kind = options.estimator,
             .arithmetic = options.arithmetic,
-            .bin_cm = options.bin_cm,
+            .bin_cm = bin_cm(options),
             .prior_mean_cm = options.prior_mean_cm,
             .prior_sigma_cm =
                 options.prior_sigma_cm.value_or(default_prior_sigma_cm(options.estimator))};
@@ -63,13 +81,12 @@ SweepSlipResult sweep_slip(const SweepSlipOptions& options, const SlipEstimatorF
     const CourseOptions course{.scenario = options.scenario,
                                .true_mean_cm = options.true_mean_cm,
                                .length_cm = options.length_cm,
-                               .lock_bin_cm = options.bin_cm};
+                               .lock_bin_cm = bin_cm(options)};
     SweepSlipResult result;
     for (auto& runs : result.runs) runs.resize(options.seeds);
     const auto one_seed = [&](std::size_t index) {
         const std::uint64_t seed = options.seed_base + index;
-        const PlanarGround unit =
-            make_planar_ground(options.terrain, seed, options.length_cm).resampled(options.bin_cm);
+        const PlanarGround unit = unit_ground(options, seed);
         const std::unique_ptr<SlipEstimator> on_board = factory(estimator);
         for (std::size_t i = 0; i < kSweepRoughness.size(); ++i) {
             const PlanarGround ground = unit.scaled(kSweepRoughness[i]);
@@ -89,7 +106,7 @@ std::string sweep_slip_json(const SweepSlipOptions& options, const SweepSlipResu
         {"arithmetic", name_of(options.arithmetic)},
         {"terrain", name_of(options.terrain)},
         {"scenario", name_of(options.scenario)},
-        {"bin_cm", options.bin_cm},
+        {"bin_cm", bin_cm(options)},
         {"prior_mean_cm", options.prior_mean_cm},
         {"prior_sigma_cm", estimator_options(options).prior_sigma_cm},
         {"true_mean_cm", options.true_mean_cm},
@@ -117,7 +134,7 @@ void print_sweep_slip(std::ostream& out, const SweepSlipOptions& options,
                       const SweepSlipResult& result) {
     fmt::print(out, "{} ({}) on {}, scenario {}: bin {} cm, prior {} +- {} cm, true mean {} cm\n",
                name_of(options.estimator), name_of(options.arithmetic), name_of(options.terrain),
-               name_of(options.scenario), options.bin_cm, options.prior_mean_cm,
+               name_of(options.scenario), bin_cm(options), options.prior_mean_cm,
                estimator_options(options).prior_sigma_cm, options.true_mean_cm);
     fmt::print(out, "{} runs of {} m a row, seeds {} to {}\n\n", options.seeds,
                options.length_cm / 100, options.seed_base, options.seed_base + options.seeds - 1);

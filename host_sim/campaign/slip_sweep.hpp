@@ -27,15 +27,17 @@ struct SweepSlipOptions {
     Arithmetic arithmetic = Arithmetic::fixed;
     TerrainKind terrain = TerrainKind::wilcox1994;
     Scenario scenario = Scenario::gaussian;
-    double bin_cm = 2.5;  ///< of the estimator, and spacing of the ground's samples
-    double prior_mean_cm = 6.0;
-    std::optional<double> prior_sigma_cm;  ///< nothing: default_prior_sigma_cm()
+    /// Of map_paper, and spacing of its ground's samples; nothing: 2.5. map_grid has its own bin and
+    /// prior sigma, so they are refused, and drives the ground as it was made, every 0.25 cm.
+    std::optional<double> bin_cm = std::nullopt;
+    double prior_mean_cm = 6.0;  ///< map_grid: the learned mean at the start
+    std::optional<double> prior_sigma_cm = std::nullopt;  ///< nothing: default_prior_sigma_cm()
     double true_mean_cm = 5.0;
     std::uint32_t seeds = 40;  ///< runs per roughness, [1, kSweepSeedsMax]
     std::uint64_t seed_base = 1;
     unsigned threads = 0;  ///< 0: one per core
     double length_cm = kCourseLengthCm;
-    std::string json_path;  ///< empty: none; "-": standard output instead of the table
+    std::string json_path = {};  ///< empty: none; "-": standard output instead of the table
 };
 
 /// What the estimator is told unless the user says otherwise: 0.05 cm for map_paper, as in the

@@ -25,8 +25,8 @@ struct SweepTable1Options {
     std::uint64_t seed_base = 1;
     unsigned threads = 0;
     double length_cm = kCourseLengthCm;
-    double bin_max_cm = 8.0;  ///< larger bins are left out
-    std::string json_path;    ///< as in SweepSlipOptions
+    double bin_max_cm = 8.0;     ///< larger bins are left out
+    std::string json_path = {};  ///< as in SweepSlipOptions
 };
 
 struct SweepTable1Result {
