@@ -50,11 +50,11 @@ enum Fault : uint16_t {
 };
 
 struct Estimates {
-    uint16_t step_count = 0;             ///< control steps since reset, modulo 2^16
-    uint16_t tick_count = 0;             ///< tick of the inputs that this step used
-    uint8_t available = 0;               ///< Available bits
-    uint8_t events = 0;                  ///< Event bits
-    uint16_t faults = 0;                 ///< Fault bits
+    uint16_t step_count = 0;  ///< control steps since reset, modulo 2^16
+    uint16_t tick_count = 0;  ///< tick of the inputs that this step used
+    uint8_t available = 0;    ///< Available bits
+    uint8_t events = 0;       ///< Event bits
+    uint16_t faults = 0;      ///< Fault bits
     SlipMode mode = SlipMode::odometry_only;
     uint16_t cycle_count = 0;            ///< slip-and-sinkage cycles since reset, modulo 2^16
     int32_t position_q4_mm = 0;          ///< s32 Q4 mm, rear contact along the ground track

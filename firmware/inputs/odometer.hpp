@@ -1,0 +1,124 @@
+// odometer.hpp - six tachometer counters to rim travel: forward, and turning on the spot.
+// Depends on   hal/io.hpp, hal/calibration.hpp, core/arith.hpp.
+// Bounds       six wheels; no rounding is lost: remainders are carried.
+// Design note  the median of the wheels of a side is used, so one dead or racing tachometer in
+// three
+//              changes nothing but its fault bit.
+#pragma once
+
+#include "firmware/config/controller_tuning.hpp"
+#include "firmware/core/arith.hpp"
+#include "hal/calibration.hpp"
+#include "hal/io.hpp"
+
+namespace rover {
+
+/// Wheels of a side, front to rear.
+inline constexpr uint8_t kLeftWheels[3] = {0, 2, 4};
+inline constexpr uint8_t kRightWheels[3] = {1, 3, 5};
+
+struct Odometer {
+    uint16_t last_count[hal::kWheelCount] = {};
+    bool started = false;
+    int32_t rest_q17_mm = 0;  ///< travel not yet in the total, below 1/16 mm
+    int32_t turn_rest_q17_mm = 0;
+    int32_t travel_q4_mm = 0;  ///< mean rim travel of both sides since reset
+    int32_t turn_q4_mm = 0;    ///< half the difference of the sides since reset
+    int16_t wheel_cycle_count[hal::kWheelCount] = {};  ///< pulses since the last cycle, saturating
+};
+
+/// What one step added.
+struct OdometerStep {
+    int16_t travel_q4_mm = 0;
+    int16_t turn_q4_mm = 0;
+    bool moving = false;  ///< any wheel counted
+    bool valid = false;   ///< at least one side has a tachometer
+};
+
+/// Middle one of three.
+constexpr int16_t median3(int16_t a, int16_t b, int16_t c) {
+    return max(min(a, b), min(max(a, b), c));
+}
+
+/// Pulses of one side: median of three, mean of two, the one, or none.
+constexpr bool side_pulses(const int16_t (&pulses)[hal::kWheelCount], uint8_t present,
+                           const uint8_t (&wheels)[3], int16_t& result) {
+    int16_t seen[3] = {};
+    uint8_t count = 0;
+    for (const uint8_t wheel : wheels) {
+        if (bit_and(shift_floor(present, wheel), uint8_t{1}) == 0) continue;
+        seen[count] = pulses[wheel];
+        ++count;
+    }
+    if (count == 0) return false;
+    if (count == 1) result = seen[0];
+    if (count == 2) result = average(seen[0], seen[1]);
+    if (count == 3) result = median3(seen[0], seen[1], seen[2]);
+    return true;
+}
+
+/// Takes whole sixteenths of a millimetre out of a remainder in Q17.
+constexpr int16_t take_whole_q4_mm(int32_t& rest_q17_mm) {
+    const int16_t whole = narrow_sat_s16(shift_floor<13>(rest_q17_mm));
+    rest_q17_mm = sub_wrap(rest_q17_mm, shift_left_wrap<13>(widen_s32(whole)));
+    return whole;
+}
+
+/// One control step. The first call only remembers the counters.
+constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& inputs,
+                                     const hal::Calibration& calibration) {
+    int16_t pulses[hal::kWheelCount] = {};
+    OdometerStep step;
+    for (uint8_t wheel = 0; wheel < hal::kWheelCount; ++wheel) {
+        const int16_t difference =
+            narrow_wrap_s16(sub_wrap(inputs.tach_count[wheel], odometer.last_count[wheel]));
+        odometer.last_count[wheel] = inputs.tach_count[wheel];
+        // A counter that jumps by a quarter of its range has been upset, not driven.
+        if (!odometer.started || abs_u16(difference) > kTachStepMaxCount) continue;
+        pulses[wheel] = difference;
+        odometer.wheel_cycle_count[wheel] = add_sat(odometer.wheel_cycle_count[wheel], difference);
+        if (difference != 0) step.moving = true;
+    }
+    odometer.started = true;
+    int16_t left = 0;
+    int16_t right = 0;
+    const bool has_left = side_pulses(pulses, inputs.tach_present, kLeftWheels, left);
+    const bool has_right = side_pulses(pulses, inputs.tach_present, kRightWheels, right);
+    if (!has_left && !has_right) return OdometerStep{};
+    if (!has_left) left = right;
+    if (!has_right) right = left;
+    // Twice the mean, so that no half pulse is lost: Q16 per pulse becomes Q17.
+    const int32_t forward = mul_wide(add_sat(left, right), calibration.tach_q16_mm_per_count);
+    const int32_t turn = mul_wide(sub_sat(right, left), calibration.tach_q16_mm_per_count);
+    odometer.rest_q17_mm = add_sat(odometer.rest_q17_mm, forward);
+    odometer.turn_rest_q17_mm = add_sat(odometer.turn_rest_q17_mm, turn);
+    step.travel_q4_mm = take_whole_q4_mm(odometer.rest_q17_mm);
+    step.turn_q4_mm = take_whole_q4_mm(odometer.turn_rest_q17_mm);
+    odometer.travel_q4_mm = add_wrap(odometer.travel_q4_mm, widen_s32(step.travel_q4_mm));
+    odometer.turn_q4_mm = add_wrap(odometer.turn_q4_mm, widen_s32(step.turn_q4_mm));
+    step.valid = true;
+    return step;
+}
+
+/// Once a cycle: does a present wheel disagree with the median of its side by more than
+/// kTachDisagreeQ4Mm? Clears the cycle counts.
+constexpr bool tachometers_disagree(Odometer& odometer, uint8_t present,
+                                    const hal::Calibration& calibration) {
+    bool disagree = false;
+    for (uint8_t side = 0; side < 2; ++side) {
+        const auto& wheels = side == 0 ? kLeftWheels : kRightWheels;
+        int16_t middle = 0;
+        if (!side_pulses(odometer.wheel_cycle_count, present, wheels, middle)) continue;
+        for (const uint8_t wheel : wheels) {
+            if (bit_and(shift_floor(present, wheel), uint8_t{1}) == 0) continue;
+            const int16_t off = sub_sat(odometer.wheel_cycle_count[wheel], middle);
+            const uint32_t off_q4_mm =
+                shift_floor<12>(mul_wide(abs_u16(off), calibration.tach_q16_mm_per_count));
+            if (off_q4_mm > kTachDisagreeQ4Mm) disagree = true;
+        }
+    }
+    for (int16_t& count : odometer.wheel_cycle_count) count = 0;
+    return disagree;
+}
+
+}  // namespace rover
