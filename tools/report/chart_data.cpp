@@ -87,21 +87,25 @@ void put_stretch(std::string& out, const Track& track, std::size_t begin, std::s
     put(out, track.place_m[last], 4);
 }
 
-void put_lane(std::string& out, const Track& track, const std::string& key, const std::string& text,
+/// A lane of the timeline; `colours[severity - 1]` names the colour of report.css.
+void put_lane(std::string& out, const Track& track, const std::string& text,
               const std::vector<signed char>& severity, const char* const* colours) {
-    fmt::format_to(std::back_inserter(out), "{{\"key\":{},\"text\":{},\"spans\":[",
-                   script_json(key), script_json(text));
+    fmt::format_to(std::back_inserter(out), "{{\"text\":{},\"spans\":[", script_json(text));
     bool first = true;
     for (const Run& run : worst_runs(severity, kLaneBuckets)) {
         if (run.value < 1) continue;
         fmt::format_to(std::back_inserter(out), "{}[\"{}\",", first ? "" : ",",
-                       colours == nullptr ? key : colours[run.value - 1]);
+                       colours[run.value - 1]);
         put_stretch(out, track, run.begin, run.end);
         out += ']';
         first = false;
     }
     out += "]}";
 }
+
+/// Colour names by LaneKind.
+constexpr const char* kKindColours[] = {"slip_alarm", "sinkage_alarm", "lost_lock", "fault",
+                                        "absent",     "gap",           "gap"};
 
 /// Modes by how much they deserve to be seen when several share a pixel; severity is index + 1.
 constexpr rover::SlipMode kModesBySeverity[kModeCount] = {
@@ -123,7 +127,7 @@ void put_mode_lane(std::string& out, const Log& log, const Track& track) {
             step.estimates ? static_cast<std::size_t>(step.estimates->mode) : kModeCount;
         severity.push_back(mode < kModeCount ? severity_of_mode[mode] : 0);
     }
-    put_lane(out, track, "mode", "Estimator mode", severity, keys);
+    put_lane(out, track, "Estimator mode", severity, keys);
 }
 
 }  // namespace
@@ -150,7 +154,8 @@ std::string chart_data(const Log& log, const Track& track, const std::vector<Cha
     if (has_estimates) put_mode_lane(out, log, track);
     for (std::size_t index = 0; index < lanes.size(); ++index) {
         if (has_estimates || index != 0) out += ',';
-        put_lane(out, track, lanes[index].key, lanes[index].text, lanes[index].up, nullptr);
+        put_lane(out, track, lanes[index].text, lanes[index].up,
+                 &kKindColours[static_cast<int>(lanes[index].kind)]);
     }
     out += "],\"events\":[";
     for (std::size_t index = 0; index < spans.size(); ++index) {

@@ -85,8 +85,9 @@ std::string footer(const host_sim::Log& log, const ReportOptions& options) {
             " Its charts are thinned from {} logged steps to at most about {} drawn "
             "ones each; the lowest and highest value of every stretch, and every "
             "alarm, are kept.",
-            log.steps.size(), options.rows_per_chart_max);
-        if (!options.csv_file.empty()) text += fmt::format(" {} has every step.", html(options.csv_file));
+            text_of_count(log.steps.size()), text_of_count(options.rows_per_chart_max));
+        if (!options.csv_file.empty())
+            text += fmt::format(" {} has every step.", html(options.csv_file));
     } else if (!log.steps.empty()) {
         text += " Its charts draw every logged step.";
     }

@@ -61,7 +61,7 @@ std::string position_cards(const Summary& summary) {
     if (summary.true_distance_m) {
         out +=
             card(signed_text(*summary.true_distance_m, text_of_distance(*summary.true_distance_m)),
-                 "Driven", "true distance");
+                 "True distance", "in " + text_of_duration(summary.duration_s));
     } else if (summary.firmware_distance_m && ever_available(summary, "slip")) {
         out += card(signed_text(*summary.firmware_distance_m,
                                 text_of_distance(*summary.firmware_distance_m)),
@@ -117,8 +117,11 @@ std::string cards_section(const Summary& summary) {
     if (ever_available(summary, "sinkage")) {
         cards += alarm_card("Sinkage alarms", summary.sinkage_alarm);
     }
-    cards += card(text_of_duration(summary.duration_s), "Duration",
-                  fmt::format("{} step{}", summary.step_count, summary.step_count == 1 ? "" : "s"));
+    if (!summary.true_distance_m) {
+        const char* plural = summary.step_count == 1 ? "" : "s";
+        cards += card(text_of_duration(summary.duration_s), "Duration",
+                      fmt::format("{} step{}", text_of_count(summary.step_count), plural));
+    }
     return "<dl class=\"cards\" aria-label=\"Key figures\">\n" + cards + "</dl>\n";
 }
 
@@ -166,7 +169,7 @@ std::string charts_section(const std::vector<Chart>& charts) {
             names += (names.empty() ? "" : ", ") + series.name;
         }
         body += fmt::format(
-            "<figure><figcaption><h3>{} <span class=\"unit\">{}</span></h3>"
+            "<figure><figcaption><h3>{} <span class=\"unit\">({})</span></h3>"
             "<p>{}</p></figcaption>\n<div class=\"legend\" id=\"legend-{}\"></div>\n"
             "<div class=\"chart\" id=\"chart-{}\" role=\"img\" "
             "aria-label=\"Chart: {} in {}: {}\"></div></figure>\n",

@@ -1,69 +1,89 @@
 #include "tools/report/spans.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "tools/report/names.hpp"
 
 namespace report {
 namespace {
 
-template <typename Test>
-void add_lane(const host_sim::Log& log, LaneKind kind, std::string key, std::string text, Test test,
-              std::vector<Lane>& lanes) {
-    Lane lane{kind, std::move(key), std::move(text), {}};
-    lane.up.reserve(log.steps.size());
-    bool any = false;
-    bool all = true;
-    for (const host_sim::LogStep& step : log.steps) {
-        const bool up = test(step);
-        lane.up.push_back(up ? 1 : 0);
-        any = any || up;
-        all = all && up;
+/// A lane before it is known whether it is ever up.
+struct Candidate {
+    LaneKind kind;
+    std::string text;
+};
+
+struct EventLane {
+    LaneKind kind;
+    const char* text;
+    rover::Event bit;
+};
+constexpr EventLane kEventLanes[] = {
+    {LaneKind::slip_alarm, "Slip alarm", rover::kEventSlipAlarm},
+    {LaneKind::sinkage_alarm, "Sinkage alarm", rover::kEventSinkageAlarm},
+    {LaneKind::lost_lock, "Lost lock", rover::kEventLostLock},
+    {LaneKind::tick_gap, "Ticks missing", rover::kEventTickGap},
+    {LaneKind::overspeed, "Faster than one cycle a step", rover::kEventOverspeed},
+};
+
+std::vector<Candidate> candidates() {
+    std::vector<Candidate> all;
+    for (const EventLane& lane : kEventLanes) all.push_back({lane.kind, lane.text});
+    for (const FaultName& fault : kFaultNames) {
+        all.push_back({LaneKind::fault, std::string("Fault: ") + fault.text});
     }
-    const bool says_missing = (kind == LaneKind::absent || kind == LaneKind::fault) && all;
-    if (any && !says_missing) lanes.push_back(std::move(lane));
+    for (const Sensor& sensor : sensors()) {
+        all.push_back({LaneKind::absent, "No answer: " + sensor.text});
+    }
+    return all;
 }
 
-void add_event_lane(const host_sim::Log& log, LaneKind kind, const char* key, const char* text,
-                    rover::Event bit, std::vector<Lane>& lanes) {
-    add_lane(
-        log, kind, key, text,
-        [bit](const host_sim::LogStep& step) {
-            return step.estimates && (step.estimates->events & bit) != 0;
-        },
-        lanes);
+/// Bit i: candidate i is up in this step. In the order of candidates().
+std::uint32_t mask_of(const host_sim::LogStep& step, const std::vector<Sensor>& all_sensors) {
+    const unsigned events = step.estimates ? step.estimates->events : 0u;
+    const unsigned faults = step.estimates ? step.estimates->faults : 0u;
+    std::uint32_t mask = 0;
+    unsigned bit = 0;
+    for (const EventLane& lane : kEventLanes) {
+        mask |= ((events & lane.bit) != 0 ? 1u : 0u) << bit++;
+    }
+    for (const FaultName& fault : kFaultNames) {
+        mask |= ((faults & fault.bit) != 0 ? 1u : 0u) << bit++;
+    }
+    for (const Sensor& sensor : all_sensors) {
+        mask |= (sensor.present(step.inputs, sensor.index) ? 0u : 1u) << bit++;
+    }
+    return mask;
 }
 
 }  // namespace
 
 std::vector<Lane> lanes_of(const host_sim::Log& log) {
+    const std::vector<Sensor>& all_sensors = sensors();
+    std::vector<std::uint32_t> masks;
+    masks.reserve(log.steps.size());
+    std::uint32_t any = 0;
+    std::uint32_t always = ~0u;
+    for (const host_sim::LogStep& step : log.steps) {
+        masks.push_back(mask_of(step, all_sensors));
+        any |= masks.back();
+        always &= masks.back();
+    }
     std::vector<Lane> lanes;
-    add_event_lane(log, LaneKind::slip_alarm, "slip_alarm", "Slip alarm", rover::kEventSlipAlarm,
-                   lanes);
-    add_event_lane(log, LaneKind::sinkage_alarm, "sinkage_alarm", "Sinkage alarm",
-                   rover::kEventSinkageAlarm, lanes);
-    add_event_lane(log, LaneKind::lost_lock, "lost_lock", "Lost lock", rover::kEventLostLock,
-                   lanes);
-    for (const FaultName& fault : kFaultNames) {
-        add_lane(
-            log, LaneKind::fault, fault.key, std::string("Fault: ") + fault.text,
-            [bit = fault.bit](const host_sim::LogStep& step) {
-                return step.estimates && (step.estimates->faults & bit) != 0;
-            },
-            lanes);
+    unsigned bit = 0;
+    for (Candidate& candidate : candidates()) {
+        const std::uint32_t mask = 1u << bit++;
+        const bool can_be_missing =
+            candidate.kind == LaneKind::absent || candidate.kind == LaneKind::fault;
+        if ((any & mask) == 0 || (can_be_missing && (always & mask) != 0)) continue;
+        Lane lane{candidate.kind, std::move(candidate.text), {}};
+        lane.up.reserve(masks.size());
+        for (const std::uint32_t up : masks) lane.up.push_back((up & mask) != 0 ? 1 : 0);
+        lanes.push_back(std::move(lane));
     }
-    for (const Sensor& sensor : sensors()) {
-        add_lane(
-            log, LaneKind::absent, "absent_" + sensor.key, "No answer: " + sensor.text,
-            [&sensor](const host_sim::LogStep& step) {
-                return !sensor.present(step.inputs, sensor.index);
-            },
-            lanes);
-    }
-    add_event_lane(log, LaneKind::tick_gap, "tick_gap", "Ticks missing", rover::kEventTickGap,
-                   lanes);
-    add_event_lane(log, LaneKind::overspeed, "overspeed", "Faster than one cycle a step",
-                   rover::kEventOverspeed, lanes);
+    std::stable_sort(lanes.begin(), lanes.end(),
+                     [](const Lane& a, const Lane& b) { return a.kind < b.kind; });
     return lanes;
 }
 

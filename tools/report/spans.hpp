@@ -16,7 +16,6 @@ enum class LaneKind { slip_alarm, sinkage_alarm, lost_lock, fault, absent, tick_
 /// One condition over the whole log.
 struct Lane {
     LaneKind kind;
-    std::string key;
     std::string text;
     std::vector<signed char> up;  ///< per step: 1 while the condition holds, else 0
 };

@@ -181,55 +181,68 @@ AlarmFigures alarm(const Log& log, const Track& track, rover::Event bit) {
     return figures;
 }
 
+/// Counts what Estimates say step by step; shares are of the steps with estimates.
 void set_events(const Log& log, Summary& summary) {
-    std::size_t estimate_steps = 0;
-    std::map<std::string, std::size_t> available_steps, mode_steps;
+    std::size_t steps = 0;
+    std::array<std::size_t, kEstimateNames.size()> available_steps{};
+    std::array<std::size_t, kFaultNames.size()> fault_steps{};
+    std::array<std::size_t, kModeCount> mode_steps{};
     const rover::Estimates* before = nullptr;
     for (const LogStep& step : log.steps) {
         if (!step.estimates) continue;
-        const rover::Estimates& estimates = *step.estimates;
-        ++estimate_steps;
-        if (before != nullptr) {
+        const rover::Estimates& now = *step.estimates;
+        ++steps;
+        if (before != nullptr) {  // modulo 2^16
             summary.cycle_count +=
-                static_cast<std::uint16_t>(estimates.cycle_count - before->cycle_count);
+                static_cast<std::uint16_t>(now.cycle_count - before->cycle_count);
         }
-        before = &estimates;
-        if ((estimates.events & rover::kEventLostLock) != 0) ++summary.lost_lock_count;
-        if ((estimates.events & rover::kEventTickGap) != 0) ++summary.tick_gap_count;
-        if ((estimates.events & rover::kEventOverspeed) != 0) ++summary.overspeed_count;
-        for (const EstimateName& name : kEstimateNames) {
-            if ((estimates.available & name.bit) != 0) ++available_steps[name.key];
+        before = &now;
+        if ((now.events & rover::kEventLostLock) != 0) ++summary.lost_lock_count;
+        if ((now.events & rover::kEventTickGap) != 0) ++summary.tick_gap_count;
+        if ((now.events & rover::kEventOverspeed) != 0) ++summary.overspeed_count;
+        for (std::size_t index = 0; index < available_steps.size(); ++index) {
+            if ((now.available & kEstimateNames[index].bit) != 0) ++available_steps[index];
         }
-        for (const FaultName& name : kFaultNames) {
-            if ((estimates.faults & name.bit) != 0) ++summary.fault_steps[name.key];
+        for (std::size_t index = 0; index < fault_steps.size(); ++index) {
+            if ((now.faults & kFaultNames[index].bit) != 0) ++fault_steps[index];
         }
-        const auto mode = static_cast<std::size_t>(estimates.mode);
-        if (mode < kModeCount) ++mode_steps[kModeKeys[mode]];
+        const auto mode = static_cast<std::size_t>(now.mode);
+        if (mode < kModeCount) ++mode_steps[mode];
     }
-    if (estimate_steps == 0) return;
-    const auto share = [&](std::size_t steps) {
-        return static_cast<double>(steps) / static_cast<double>(estimate_steps);
+    if (steps == 0) return;
+    const auto share = [&](std::size_t count) {
+        return static_cast<double>(count) / static_cast<double>(steps);
     };
-    for (const char* key : kModeKeys) summary.mode_share[key] = share(mode_steps[key]);
-    for (const EstimateName& name : kEstimateNames) {
-        summary.available_share[name.key] = share(available_steps[name.key]);
-        if (available_steps[name.key] == 0) summary.not_available.emplace_back(name.text);
+    for (std::size_t mode = 0; mode < kModeCount; ++mode) {
+        summary.mode_share[kModeKeys[mode]] = share(mode_steps[mode]);
+    }
+    for (std::size_t index = 0; index < fault_steps.size(); ++index) {
+        if (fault_steps[index] != 0)
+            summary.fault_steps[kFaultNames[index].key] = fault_steps[index];
+    }
+    for (std::size_t index = 0; index < available_steps.size(); ++index) {
+        const EstimateName& name = kEstimateNames[index];
+        summary.available_share[name.key] = share(available_steps[index]);
+        if (available_steps[index] == 0) summary.not_available.emplace_back(name.text);
     }
 }
 
 void set_sensors(const Log& log, Summary& summary) {
-    for (const Sensor& sensor : sensors()) {
-        const auto present = std::count_if(
-            log.steps.begin(), log.steps.end(),
-            [&](const LogStep& step) { return sensor.present(step.inputs, sensor.index); });
-        const auto count = static_cast<std::size_t>(present);
-        if (log.steps.empty()) continue;
-        summary.sensor_present_share[sensor.key] =
+    const std::vector<Sensor>& all = sensors();
+    std::vector<std::size_t> present_steps(all.size(), 0);
+    for (const LogStep& step : log.steps) {
+        for (std::size_t index = 0; index < all.size(); ++index) {
+            if (all[index].present(step.inputs, all[index].index)) ++present_steps[index];
+        }
+    }
+    for (std::size_t index = 0; index < all.size(); ++index) {
+        const std::size_t count = present_steps[index];
+        summary.sensor_present_share[all[index].key] =
             static_cast<double>(count) / static_cast<double>(log.steps.size());
         if (count == 0) {
-            summary.sensors_missing.push_back(sensor.text);
+            summary.sensors_missing.push_back(all[index].text);
         } else if (count < log.steps.size()) {
-            summary.sensors_intermittent.push_back(sensor.text);
+            summary.sensors_intermittent.push_back(all[index].text);
         }
     }
 }

@@ -92,6 +92,7 @@ void write_summary_json(const Summary& summary, const std::filesystem::path& fil
 // Numbers as the report prints them.
 std::string text_of_percent(double value);     ///< "0.17 %", "2.3 %", "20 %": no sign
 std::string text_of_distance(double value_m);  ///< "62.5 m", "12 cm", "3 mm": no sign
-std::string text_of_duration(double value_s);  ///< "12.5 s", "12 min 30 s", "2 h 5 min"
+std::string text_of_duration(double value_s);  ///< "12.5 s", "12 min 30 s", "2 h"
+std::string text_of_count(std::size_t count);  ///< "75,000"
 
 }  // namespace report

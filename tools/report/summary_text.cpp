@@ -106,14 +106,13 @@ void say_sinkage(const Summary& summary, std::vector<std::string>& out) {
 
 std::string alarm_text(const char* name, const AlarmFigures& alarm) {
     if (alarm.count == 0) return fmt::format("The {} alarm never went up.", name);
+    const std::string duration = text_of_duration(*alarm.first_time_s);
     const std::string where = alarm.first_place_m
-                                  ? fmt::format("{}{}, ", minus(*alarm.first_place_m),
-                                                text_of_distance(*alarm.first_place_m))
-                                  : "";
-    const double percent = 100.0 * alarm.raised_share;
-    return fmt::format("The {} alarm went up {}, first at {}{}; it was up for {} of the time.",
-                       name, times(alarm.count), where, text_of_duration(*alarm.first_time_s),
-                       text_of_percent(percent));
+                                  ? fmt::format("at {}{} (after {})", minus(*alarm.first_place_m),
+                                                text_of_distance(*alarm.first_place_m), duration)
+                                  : fmt::format("after {}", duration);
+    return fmt::format("The {} alarm went up {}, first {}; it was up for {} of the time.", name,
+                       times(alarm.count), where, text_of_percent(100.0 * alarm.raised_share));
 }
 
 void say_alarms(const Summary& summary, std::vector<std::string>& out) {
@@ -172,8 +171,18 @@ std::string text_of_distance(double value_m) {
 std::string text_of_duration(double value_s) {
     if (value_s < 59.95) return fmt::format("{:.1f} s", value_s);
     const auto whole_s = static_cast<long long>(std::llround(value_s));
-    if (whole_s < 3600) return fmt::format("{} min {} s", whole_s / 60, whole_s % 60);
-    return fmt::format("{} h {} min", whole_s / 3600, whole_s % 3600 / 60);
+    const bool hours = whole_s >= 3600;
+    const long long large = hours ? whole_s / 3600 : whole_s / 60;
+    const long long small = hours ? whole_s % 3600 / 60 : whole_s % 60;
+    std::string text = fmt::format("{} {}", large, hours ? "h" : "min");
+    if (small != 0) text += fmt::format(" {} {}", small, hours ? "min" : "s");
+    return text;
+}
+
+std::string text_of_count(std::size_t count) {
+    std::string text = std::to_string(count);
+    for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
+    return text;
 }
 
 std::vector<std::string> sentences(const Summary& summary) {

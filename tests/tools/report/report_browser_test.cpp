@@ -143,7 +143,7 @@ TEST_F(ReportInBrowser, BareVehicleRendersAtBothWidths) {
 }
 
 TEST_F(ReportInBrowser, DarkPagesRenderToo) {
-    show(report_test::full_drive(4000), full_options(), 1280, "dark-1280", "dark");
+    show(report_test::full_drive(1500), full_options(), 1280, "dark-1280", "dark");
     expect_clean_page();
     expect_charts_drawn(8, 1280);
     const auto red = browser->run(
@@ -153,7 +153,7 @@ TEST_F(ReportInBrowser, DarkPagesRenderToo) {
 }
 
 TEST_F(ReportInBrowser, ZoomingOneChartZoomsAll) {
-    show(report_test::full_drive(4000), full_options(), 1280, "zoom");
+    show(report_test::full_drive(1500), full_options(), 1280, "zoom");
     browser->run("roverReport.charts[2].updateOptions({dateWindow: [10, 20]})");
     const auto windows = browser->run("return roverReport.charts.map((g) => g.xAxisRange())");
     ASSERT_EQ(windows.size(), 8u);
@@ -167,18 +167,18 @@ TEST_F(ReportInBrowser, ZoomingOneChartZoomsAll) {
 }
 
 TEST_F(ReportInBrowser, AxisSwitchesBetweenPositionAndTime) {
-    show(report_test::full_drive(4000), full_options(), 1280, "axis");
+    show(report_test::full_drive(1500), full_options(), 1280, "axis");
     browser->click("#by-time");
     expect_charts_drawn(8, 1280);
     for (const auto& window :
          browser->run("return roverReport.charts.map((g) => g.xAxisRange())")) {
-        EXPECT_NEAR(window[1].get<double>(), 399.9, 0.5);  // 4000 steps of 0.1 s
+        EXPECT_NEAR(window[1].get<double>(), 149.9, 0.5);  // 1500 steps of 0.1 s
     }
     expect_clean_page();
 }
 
 TEST_F(ReportInBrowser, EventsOfTheTableLeadToTheirPlace) {
-    show(report_test::full_drive(4000), full_options(), 1280, "events");
+    show(report_test::full_drive(1500), full_options(), 1280, "events");
     browser->click(".go[data-event=\"0\"]");
     const auto window = browser->run("return roverReport.charts[1].xAxisRange()");
     const double up_m = browser->run(
@@ -188,6 +188,27 @@ TEST_F(ReportInBrowser, EventsOfTheTableLeadToTheirPlace) {
     EXPECT_GT(window[1].get<double>(), up_m);
     EXPECT_LT(window[1].get<double>() - window[0].get<double>(), 20.0);
     keep_picture("events");
+    expect_clean_page();
+}
+
+TEST_F(ReportInBrowser, PaperGetsNarrowLightChartsAndTheScreenGetsItsOwnBack) {
+    show(report_test::full_drive(1500), full_options(), 1280, "paper", "dark");
+    browser->run("roverReport.charts[0].updateOptions({dateWindow: [10, 20]})");
+    const char* background =
+        "return Number(getComputedStyle(document.body).backgroundColor.match(/\\d+/)[0])";
+    browser->run("window.dispatchEvent(new Event('beforeprint'))");
+    EXPECT_GT(browser->run(background).get<int>(), 192);
+    for (const auto& chart : browser->run(kMeasureCharts)) {
+        EXPECT_LE(chart.at("width").get<double>(), 680) << chart.dump();
+        EXPECT_GE(chart.at("coloured").get<int>(), 150) << chart.dump();
+    }
+    browser->set_media("print", "light");
+    keep_picture("paper");
+    browser->set_media("screen", "dark");
+    browser->run("window.dispatchEvent(new Event('afterprint'))");
+    EXPECT_LT(browser->run(background).get<int>(), 64);
+    EXPECT_EQ(browser->run("return roverReport.charts[3].xAxisRange()"), nlohmann::json({10, 20}));
+    expect_charts_drawn(8, 1280);
     expect_clean_page();
 }
 
@@ -219,7 +240,7 @@ TEST_F(ReportInBrowser, EmptyLogIsAPageWithoutCharts) {
 
 // What a screen reader is given: one first heading, no level skipped, names for charts and tables.
 TEST_F(ReportInBrowser, StructureIsAccessible) {
-    show(report_test::full_drive(4000), full_options(), 1280, "structure");
+    show(report_test::full_drive(1500), full_options(), 1280, "structure");
     const auto levels = browser->run(
         "return Array.from(document.querySelectorAll('h1,h2,h3,h4')).map((h) => +h.tagName[1])");
     EXPECT_EQ(levels.at(0), 1);

@@ -1,8 +1,8 @@
 #include "tools/report/report.hpp"
 
 #include <gmock/gmock.h>
+#include <time.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -40,17 +40,22 @@ TEST(Report, SameLogGivesTheSameBytes) {
     EXPECT_EQ(report_html(log, {}), report_html(log, {}));
 }
 
-// The wish is 0.15 s; a busy machine and the sanitizers are slower, so the best of five is judged
-// and the limit holds for optimised builds only.
+/// Processor time of this thread: what a busy machine gives to others is not ours.
+double thread_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// The limit holds for optimised builds without sanitizers; the best of five is judged.
 TEST(Report, SeventyFiveThousandStepsAreFastAndSmall) {
     const auto log = report_test::full_drive(75000);
     double best_s = 1e9;
     std::size_t size = 0;
     for (int attempt = 0; attempt < 5; ++attempt) {
-        const auto start = std::chrono::steady_clock::now();
+        const double start_s = thread_seconds();
         size = report_html(log, {}).size();
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        best_s = std::min(best_s, taken.count());
+        best_s = std::min(best_s, thread_seconds() - start_s);
     }
     std::cout << "report of 75,000 steps: " << 1000.0 * best_s << " ms, "
               << static_cast<double>(size) / 1e6 << " MB\n";
@@ -75,9 +80,9 @@ TEST(Report, EveryAlarmOfALongLogIsInThePage) {
     ASSERT_EQ(sinkage_m.size(), 1u);
     EXPECT_NEAR(sinkage_m[0], 40.0, 0.01);
     for (const auto& lane : data["lanes"]) {
-        EXPECT_FALSE(lane["spans"].empty()) << lane["key"];
+        EXPECT_FALSE(lane["spans"].empty()) << lane["text"];
     }
-    EXPECT_TRUE(has(page, "thinned from 75000 logged steps"));
+    EXPECT_TRUE(has(page, "thinned from 75,000 logged steps"));
 }
 
 TEST(Report, ChartsKeepTheGreatestSinkageOfEveryStep) {
@@ -169,8 +174,8 @@ TEST(Report, AsksNobodyForAnything) {
 
 TEST(Spans, TheLeastImportantAreLeftOutFirst) {
     const std::vector<report::Lane> lanes = {
-        {report::LaneKind::slip_alarm, "slip_alarm", "Slip alarm", {0, 0, 0, 1, 1, 0, 1}},
-        {report::LaneKind::tick_gap, "tick_gap", "Ticks missing", {1, 0, 1, 0, 0, 0, 0}}};
+        {report::LaneKind::slip_alarm, "Slip alarm", {0, 0, 0, 1, 1, 0, 1}},
+        {report::LaneKind::tick_gap, "Ticks missing", {1, 0, 1, 0, 0, 0, 0}}};
     std::size_t left_out = 99;
     auto spans = report::spans_of(lanes, 10, left_out);
     EXPECT_EQ(left_out, 0u);

@@ -200,7 +200,7 @@ TEST(Sentences, SayTheHeadlineFigures) {
                           "odometry is off by 25 %."));
     EXPECT_THAT(text, HasSubstr("Sinkage is estimated at 8.0 mm on average and 12 mm at most; the "
                                 "truth is 9.0 mm and 14 mm (RMS error 1.3 mm)."));
-    EXPECT_THAT(text, HasSubstr("The slip alarm went up twice, first at 1.00 m, 1.1 s;"));
+    EXPECT_THAT(text, HasSubstr("The slip alarm went up twice, first at 1.00 m (after 1.1 s);"));
     EXPECT_THAT(text, HasSubstr("The sinkage alarm never went up."));
     EXPECT_THAT(text, HasSubstr("loss of lock once"));
     EXPECT_THAT(text, HasSubstr("Sensors missing throughout: roll inclinometer."));
@@ -253,9 +253,12 @@ TEST(Texts, NumbersReadWell) {
     EXPECT_EQ(report::text_of_distance(-0.123), "12 cm");
     EXPECT_EQ(report::text_of_distance(0.003), "3 mm");
     EXPECT_EQ(report::text_of_duration(12.51), "12.5 s");
-    EXPECT_EQ(report::text_of_duration(59.99), "1 min 0 s");
+    EXPECT_EQ(report::text_of_duration(59.99), "1 min");
     EXPECT_EQ(report::text_of_duration(750), "12 min 30 s");
     EXPECT_EQ(report::text_of_duration(7500), "2 h 5 min");
+    EXPECT_EQ(report::text_of_count(0), "0");
+    EXPECT_EQ(report::text_of_count(999), "999");
+    EXPECT_EQ(report::text_of_count(1234567), "1,234,567");
 }
 
 TEST(SummaryJson, CarriesFiguresAndNullsForTheUnknown) {

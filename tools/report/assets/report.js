@@ -8,7 +8,7 @@ const $ = (id) => document.getElementById(id);
 
 // Lines differ in dash as well as in colour.
 const styles = {
-  firmware: {width: 1.8}, truth: {width: 1.5, dash: [5, 4]}, wheels: {width: 1.6, dash: [9, 3]},
+  firmware: {width: 1.4}, truth: {width: 2, dash: [6, 4]}, wheels: {width: 1.6, dash: [9, 3]},
   ground: {width: 1.3, dash: [2, 3]}, front: {width: 1.8}, rear: {width: 1.4, dash: [8, 3]},
   middle: {width: 1.4}, ahead: {width: 1.2, dash: [4, 3]}, ahead_far: {width: 1.2, dash: [2, 3]},
   pitch: {width: 1.6}, roll: {width: 1.4, dash: [8, 3]}, rocker: {width: 1.2, dash: [4, 3]},
@@ -16,9 +16,6 @@ const styles = {
 };
 const kinds = ['slip_alarm', 'sinkage_alarm', 'lost_lock', 'fault', 'absent', 'gap', 'gap'];
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
-const laneColour = (key) =>
-  key.startsWith('absent_') ? colour('absent') :
-  ['tick_gap', 'overspeed'].includes(key) ? colour('gap') : colour(key) || colour('fault');
 const narrow = () => window.innerWidth <= 600;
 
 let axis = data.place ? 'place' : 'time';
@@ -192,7 +189,7 @@ const yLabel = (value) => {
   }
   return number(value, 4);
 };
-const leftWidth = () => narrow() ? 40 : 96;
+const leftWidth = () => narrow() ? 40 : 56;
 
 function seriesOptions(chart) {
   const options = {};
@@ -209,49 +206,60 @@ function chartOptions(chart) {
     legendFormatter: (info) => legend(chart, info),
     errorBars: Boolean(chart.sigma), sigma: 1, fillAlpha: 0.18, axes: axes(leftWidth()),
     series: seriesOptions(chart),
-    underlayCallback: (ctx, area, g) => { underlayAlarms(ctx, area, g); underlayZero(ctx, area, g); drawPins(ctx, area, g); },
+    underlayCallback: (ctx, area, g) => {
+      ctx.lineJoin = 'round';  // kept for the lines: mitres of near reversals look like spikes
+      underlayAlarms(ctx, area, g);
+      underlayZero(ctx, area, g);
+    },
+    plotter: [Dygraph.Plotters.errorPlotter, Dygraph.Plotters.linePlotter, onTop(drawPins)],
     yRangePad: 18,
   });
 }
 
+// dygraphs draws the grid over the underlay, so what must stay readable is drawn by a plotter.
+const onTop = (draw) => (e) => {
+  if (e.seriesIndex === e.seriesCount - 1) draw(e.drawingContext, e.plotArea, e.dygraph);
+};
+
+function drawLanes(ctx, area, g) {
+  const height = 12;
+  data.lanes.forEach((lane, index) => {
+    const top = g.toDomYCoord(data.lanes.length - 1 - index) - 1;
+    ctx.save();
+    ctx.font = '12px system-ui, sans-serif';
+    ctx.textBaseline = 'bottom';
+    const width = Math.min(ctx.measureText(lane.text).width, area.w - 4);
+    ctx.fillStyle = colour('panel');
+    ctx.fillRect(area.x + 1, top - 17, width + 6, 17);
+    ctx.fillStyle = colour('ink');
+    ctx.fillText(lane.text, area.x + 2, top - 1, area.w - 4);
+    ctx.fillStyle = colour('soft');
+    ctx.fillRect(area.x, top, area.w, height);
+    ctx.beginPath();
+    ctx.rect(area.x, top, area.w, height);
+    ctx.clip();
+    eachVisible(g, lane.spans, (span, x, spanWidth) => {
+      ctx.fillStyle = colour(span[0]);
+      ctx.fillRect(x, top, spanWidth, height);
+    });
+    ctx.restore();
+  });
+}
+
 function laneOptions() {
-  const lanes = data.lanes;
-  const label = (text) => text.replace(/^(Fault|No answer): /, narrow() ? '' : '$1: ');
-  const ticker = () => lanes.map((lane, index) => ({v: lanes.length - 1 - index, label: ''}));
+  const count = data.lanes.length;
   return Object.assign(common(), {
-    labels: [axisName(), 'lane'], valueRange: [-0.6, lanes.length - 0.4], legend: 'never',
-    drawGrid: true, highlightCircleSize: 0,
+    labels: [axisName(), 'lane'], valueRange: [-0.6, count - 0.4], legend: 'never',
+    highlightCircleSize: 0, plotter: onTop(drawLanes),
     axes: {
-      x: Object.assign(axes(0).x, {drawGrid: true}),
-      y: {axisLabelWidth: leftWidth(), ticker, drawGrid: false},
-    },
-    series: {lane: {strokeWidth: 0}},
-    underlayCallback: (ctx, area, g) => {
-      lanes.forEach((lane, index) => {
-        const middle = g.toDomYCoord(lanes.length - 1 - index);
-        const top = middle - 1, height = 12;
-        ctx.save();
-        ctx.font = '12px system-ui, sans-serif';
-        ctx.fillStyle = colour('ink');
-        ctx.textBaseline = 'bottom';
-        ctx.fillText(label(lane.text), area.x + 2, top - 1, area.w - 4);
-        ctx.fillStyle = colour('soft');
-        ctx.fillRect(area.x, top, area.w, height);
-        ctx.beginPath();
-        ctx.rect(area.x, top, area.w, height);
-        ctx.clip();
-        eachVisible(g, lane.spans, (span, x, width) => {
-          ctx.fillStyle = laneColour(span[0]);
-          ctx.fillRect(x, top, width, height);
-        });
-        ctx.restore();
-      });
+      x: axes(0).x,
+      y: {axisLabelWidth: leftWidth(), ticker: () => [], drawGrid: false},
     },
   });
 }
 
 function laneRows() {
-  // Two empty points: the lanes are drawn by hand, dygraphs gives them axes, zoom and cursor.
+  // Two points that are never drawn: the lanes are drawn by hand, dygraphs gives them axis and zoom.
   let low = Infinity, high = -Infinity;
   for (const chart of data.charts) {
     low = Math.min(low, chart[axis][0]);
@@ -261,7 +269,7 @@ function laneRows() {
     low = Math.min(low, from(span));
     high = Math.max(high, to(span));
   }
-  return [[low, NaN], [high, NaN]];
+  return [[low, 0], [high, 0]];
 }
 
 function make(element, rows, options, keepRows) {
@@ -285,6 +293,19 @@ function drawAll() {
   $('by-time').setAttribute('aria-pressed', String(axis === 'time'));
 }
 
+function redraw() {
+  const first = report.charts[0];
+  const window_ = first.isZoomed('x') ? first.xAxisRange() : null;
+  drawAll();
+  setWindow(window_);
+}
+
+// Paper is narrower than the screen, and white.
+function paper(on) {
+  document.documentElement.classList.toggle('paper', on);
+  redraw();
+}
+
 function setUp() {
   if (!$('toolbar')) return;
   drawAll();
@@ -299,10 +320,9 @@ function setUp() {
     setWindow([from(event) - margin, to(event) + margin]);
     ($('chart-lanes') || document.querySelector('.chart')).scrollIntoView({block: 'center'});
   }));
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawAll);
-  // Paper is narrower than the screen and white.
-  window.addEventListener('beforeprint', () => report.charts.forEach((g) => g.resize()));
-  window.addEventListener('afterprint', () => report.charts.forEach((g) => g.resize()));
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
+  window.addEventListener('beforeprint', () => paper(true));
+  window.addEventListener('afterprint', () => paper(false));
 }
 
 try {
