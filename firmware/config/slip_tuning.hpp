@@ -11,13 +11,14 @@ namespace rover::slip {
 
 // -- Geometry of the map --------------------------------------------------------------------------
 inline constexpr uint8_t kBinMm = 25;
-inline constexpr uint8_t kNodeCount = 32;             ///< ring of surface heights: 80 cm of ground
-inline constexpr uint8_t kHalfBinCandidates = 9;      ///< 0 to 10 cm ahead in steps of 1.25 cm
-inline constexpr uint16_t kReachQ6Bin = 256;          ///< 10 cm
-inline constexpr uint16_t kGapMaxQ6Bin = 640;         ///< 25 cm: a longer hole is not bridged
-inline constexpr uint16_t kMiddleMinQ6Bin = 64;       ///< 2.5 cm
-inline constexpr uint16_t kMiddleMaxQ6Bin = 704;      ///< 27.5 cm
-inline constexpr uint16_t kFrontMaxQ6Bin = 1408;      ///< 55 cm
+inline constexpr uint8_t kNodeCount = 32;         ///< ring of surface heights: 80 cm of ground
+inline constexpr uint8_t kKnownNodes = 21;        ///< 0 to 50 cm: what a start from a ramp needs
+inline constexpr uint8_t kHalfBinCandidates = 9;  ///< 0 to 10 cm ahead in steps of 1.25 cm
+inline constexpr uint16_t kReachQ6Bin = 256;      ///< 10 cm
+inline constexpr uint16_t kGapMaxQ6Bin = 640;     ///< 25 cm: a longer hole is not bridged
+inline constexpr uint16_t kMiddleMinQ6Bin = 64;   ///< 2.5 cm
+inline constexpr uint16_t kMiddleMaxQ6Bin = 704;  ///< 27.5 cm
+inline constexpr uint16_t kFrontMaxQ6Bin = 1408;  ///< 55 cm
 inline constexpr uint16_t kForgetBehindQ6Bin = 8192;  ///< 3.2 m behind the map: it is dropped
 
 // -- Matching -------------------------------------------------------------------------------------

@@ -1,8 +1,9 @@
 // map_grid_match.hpp - where along the map does the middle wheel's height fit? Weighted sum of
 //                      squares by table look-up over nine places, then a parabola.
 // Depends on   map_grid_surface.hpp, square_table.hpp.
-// Source       Wilcox 1994, step 2 (two terms: middle wheel and prior), on half bins of a fixed
-// grid. Bounds       6 residuals, 9 candidates.
+// Source       Wilcox 1994, step 2 (two terms: middle wheel and prior), on half bins.
+// Bounds       6 residuals, 9 candidates.
+// Tests        tests/firmware/estimation/map_grid_match_test.cpp
 #pragma once
 
 #include "firmware/estimation/map_grid_surface.hpp"

@@ -3,6 +3,7 @@
 // Source       Wilcox 1994, "primary function being estimated is the loadbearing surface"; sinkage
 //              from the look-ahead samples, shrunk by what their noise allows.
 // Bounds       at most kSampleCount samples are looked at or moved.
+// Tests        tests/firmware/estimation/map_grid_sinkage_test.cpp
 #pragma once
 
 #include "firmware/estimation/map_grid_surface.hpp"

@@ -1,7 +1,9 @@
-// map_grid_surface.hpp - the map of the load-bearing surface: look-up, start, extension,
-// correction. Depends on   map_grid_state.hpp. Source       Wilcox 1994, steps 3 and 4, on a fixed
-// world grid (docs/design/slip-and-sinkage.md). Bounds       every loop runs over at most the 32
-// nodes of the ring.
+// map_grid_surface.hpp - map of the load-bearing surface: look-up, start, extension, correction.
+// Depends on   map_grid_state.hpp.
+// Source       Wilcox 1994, steps 3 and 4, on a fixed world grid.
+// Design note  docs/design/slip-and-sinkage.md
+// Bounds       every loop runs over at most the 32 nodes of the ring.
+// Tests        tests/firmware/estimation/map_grid_surface_test.cpp
 #pragma once
 
 #include "firmware/estimation/map_grid_state.hpp"
@@ -14,7 +16,7 @@ constexpr U16 node_before(U16 place_q6_bin) {
 }
 
 constexpr uint8_t ring_index(U16 node) {
-    return native(narrow_wrap_u8(bit_and(node, U16{kNodeCount - 1u})));
+    return index_of(narrow_wrap_u8(bit_and(node, U16{kNodeCount - 1u})));
 }
 constexpr S16& node_height(MapGrid& map, U16 node) {
     return map.surface_q4_mm[ring_index(node)];
@@ -84,6 +86,25 @@ constexpr void begin_map(MapGrid& map, const MapGridInput& input) {
     map.measured_from_q6_bin = front;
     map.measured = false;
     map.has_map = true;
+}
+
+/// Starts at place 0 on ground of known shape, such as a ramp: it counts as measured.
+/// @param surface_q4_mm  load-bearing surface at 0, 2.5 ... 50 cm ahead of the rear contact
+constexpr void start_on_known_ground(MapGrid& map, const S16 (&surface_q4_mm)[kKnownNodes]) {
+    drop_map(map);
+    for (uint8_t node = 0; node < kKnownNodes; ++node) {
+        map.surface_q4_mm[node] = surface_q4_mm[node];
+    }
+    const S16 front_q4_mm = surface_q4_mm[kKnownNodes - 1];
+    map.surface_q4_mm[kKnownNodes] = front_q4_mm;
+    map.place_q6_bin = U16{0};
+    map.lowest_q6_bin = U16{0};
+    map.measured_from_q6_bin = U16{0};
+    map.front_place_q6_bin = U16{(kKnownNodes - 1u) * 64u};
+    map.front_height_q4_mm = front_q4_mm;
+    map.front_height_before_q4_mm = front_q4_mm;
+    map.has_map = true;
+    map.measured = true;
 }
 
 /// Running mean of |second difference| of successive front-wheel heights: what a straight line

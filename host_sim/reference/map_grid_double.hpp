@@ -74,6 +74,9 @@ public:
         measured_from_cm_ = 0;
     }
 
+    /// What the estimator has learned of the advance of a 6 cm cycle, [1, 6] cm.
+    void set_learned_mean_cm(double mean_cm) { prior_mean_cm_ = mean_cm; }
+
     void step(const MapGridInput& input);
 
     double position_cm() const { return position_cm_; }

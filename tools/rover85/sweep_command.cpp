@@ -109,14 +109,18 @@ void add_slip(CLI::App& sweep, int& exit_code) {
             ->check(CLI::Range(low, high))
             ->capture_default_str();
     };
-    number("--bin", options->bin_cm, 0.25, 8.0, "Bin size, and spacing of the ground's samples");
+    slip.add_option_function<double>(
+            "--bin", [options](double bin) { options->bin_cm = bin; },
+            "Bin size of map_paper, and spacing of its ground's samples (2.5 unless given; "
+            "map_grid has its own)")
+        ->type_name("CM")
+        ->check(CLI::Range(0.25, 8.0));
     number("--prior-mean", options->prior_mean_cm, 0.1, 50.0, "Advance that the estimator expects");
     number("--true-mean", options->true_mean_cm, 0.1, 50.0, "Mean advance of a cycle in truth");
     slip.add_option_function<double>(
             "--prior-sigma", [options](double sigma) { options->prior_sigma_cm = sigma; },
-            fmt::format("Spread that it expects (map_paper {}, map_grid {})",
-                        host_sim::default_prior_sigma_cm(EstimatorKind::map_paper),
-                        host_sim::default_prior_sigma_cm(EstimatorKind::map_grid)))
+            fmt::format("Spread that map_paper expects ({} unless given; map_grid has its own)",
+                        host_sim::default_prior_sigma_cm(EstimatorKind::map_paper)))
         ->type_name("CM")
         ->check(CLI::Range(0.01, 20.0));
     add_run_options(slip, *options);
