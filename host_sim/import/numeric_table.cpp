@@ -66,7 +66,7 @@ NumericTable parse_numeric_table(std::string_view text, std::string_view name,
     table.column_count = static_cast<std::size_t>(std::ranges::count(header, ',')) + 1;
     const std::string_view found = take_line(text, name, 1);
     if (found != header) {
-        refuse(name, 1, fmt::format("header is '{:.60}', not '{}'", found, header),
+        refuse(name, 1, fmt::format("header is '{:.60}', not '{:.60}'", found, header),
                "give the file of this data set that has these columns");
     }
     for (std::size_t line = 2; !text.empty(); ++line) {
