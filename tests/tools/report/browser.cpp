@@ -1,14 +1,18 @@
 #include "browser.hpp"
 
+#include <fcntl.h>
 #include <httplib.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace report_test {
@@ -24,37 +28,38 @@ void demand(const char* program, const char* package) {
     }
 }
 
-/// Starts chromedriver on a free port, in a process group of its own; gives its output to read.
-pid_t start_driver(std::FILE*& output) {
-    int ends[2];
-    if (pipe(ends) != 0) throw std::runtime_error("pipe failed");
+/// Starts chromedriver on a free port, in a process group of its own, with its output in a file.
+pid_t start_driver(const std::string& output) {
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("fork failed");
     if (child == 0) {
         setpgid(0, 0);
-        dup2(ends[1], STDOUT_FILENO);
-        dup2(ends[1], STDERR_FILENO);
-        close(ends[0]);
+        const int file = open(output.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
+        dup2(file, STDOUT_FILENO);
+        dup2(file, STDERR_FILENO);
         execl(kDriver, kDriver, "--port=0", static_cast<char*>(nullptr));
         _exit(127);
     }
-    close(ends[1]);
-    output = fdopen(ends[0], "r");
     return child;
 }
 
-/// The port that chromedriver prints once it listens.
-int read_port(std::FILE* output) {
-    char line[512];
-    std::string said;
-    while (std::fgets(line, sizeof line, output) != nullptr) {
-        said += line;
-        int port = 0;
-        if (std::sscanf(line, "ChromeDriver was started successfully on port %d", &port) == 1) {
-            return port;
+/// The port that chromedriver prints once it listens; waits for it at most half a minute.
+int read_port(const std::string& output) {
+    std::string line, said;
+    for (int attempt = 0; attempt < 600; ++attempt) {
+        said.clear();
+        for (std::ifstream file(output); std::getline(file, line);) {
+            said += line + "\n";
+            int port = 0;
+            char dot = 0;  // the line is complete
+            if (std::sscanf(line.c_str(), "ChromeDriver was started successfully on port %d%c",
+                            &port, &dot) == 2) {
+                return port;
+            }
         }
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    throw std::runtime_error("chromedriver did not start: " + said);
+    throw std::runtime_error("chromedriver did not start within 30 s: " + said);
 }
 
 }  // namespace
@@ -65,11 +70,10 @@ Browser::Browser() {
     std::string name = (std::filesystem::temp_directory_path() / "rover85-browser-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder in /tmp");
     profile_ = name;
-    std::FILE* output = nullptr;
+    const std::string output = profile_ + "/chromedriver.txt";
     driver_ = start_driver(output);
     try {
         port_ = read_port(output);
-        std::fclose(output);
         const nlohmann::json arguments = {"--headless=new",
                                           "--no-sandbox",
                                           "--disable-gpu",
@@ -80,7 +84,7 @@ Browser::Browser() {
                                           "--disable-sync",
                                           "--disable-dev-shm-usage",
                                           "--hide-scrollbars",
-                                          "--user-data-dir=" + profile_,
+                                          "--user-data-dir=" + profile_ + "/profile",
                                           "--window-size=1280,900"};
         const nlohmann::json body = {
             {"capabilities",
