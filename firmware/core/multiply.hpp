@@ -1,9 +1,9 @@
-// multiply.hpp - products, quotients and interpolation; included by arith.hpp, which see.
-// Depends on   firmware/core/arith.hpp.
+// multiply.hpp - products, quotients and interpolation; part of arith.hpp, which see.
+// Depends on   sums.hpp.
 // Bounds       no loop, no state.    Tests  tests/firmware/core/multiply_test.cpp
 #pragma once
 
-#include "firmware/core/arith.hpp"
+#include "firmware/core/sums.hpp"
 
 namespace rover {
 

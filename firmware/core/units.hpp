@@ -3,14 +3,13 @@
 // Each type is a scoped enum over a fixed-width integer: distinct at compile time, yet passed and
 // returned as the bare integer by every calling convention (a one-member struct is not).
 //
-// | type     | quantity            | format  | one LSB    | range                     | at the edge
-// |
-// |----------|---------------------|---------|------------|---------------------------|-------------|
-// | Brad16   | angle               | s16     | 2^-16 turn | [-1/2, +1/2) turn         | wraps | |
-// Q15      | ratio, sine         | s16 Q15 | 2^-15      | [-1, +1)                  | saturates   |
-// | Q4Mm     | height, length, mm  | s16 Q4  | 1/16 mm    | [-2048, +2048) mm         | wraps | |
-// Q4MmWide | place on track, mm  | s32 Q4  | 1/16 mm    | [-134217.7, +134217.7] m  | wraps       |
-// Tests  tests/firmware/core/units_test.cpp, must_not_compile
+// | type     | quantity       | format  | one LSB    | range               | at the edge    |
+// |----------|----------------|---------|------------|---------------------|----------------|
+// | Brad16   | angle          | s16     | 2^-16 turn | [-1/2, +1/2) turn   | wraps          |
+// | Q15      | ratio, sine    | s16 Q15 | 2^-15      | [-1, +1)            | saturates      |
+// | Q4Mm     | height, length | s16 Q4  | 1/16 mm    | [-2048, +2048) mm   | wrap or sat    |
+// | Q4MmWide | place on track | s32 Q4  | 1/16 mm    | +-134 km            | wrap or sat    |
+// Tests  tests/firmware/core/units_test.cpp, must_not_compile.cpp
 #pragma once
 
 #include "firmware/core/arith.hpp"

@@ -12,6 +12,8 @@
 #include <random>
 #include <vector>
 
+#include "firmware/core/arith.hpp"
+
 namespace reference {
 
 template <class T>

@@ -13,8 +13,8 @@ set(device -mmcu=atmega2560)
 set(objects)
 foreach(source probe_avr.cpp ${GROUPS})
   set(object ${OUT}/${source}.avr.o)
-  run(ignored ${CLANG} --target=avr ${device} -std=c++20 -Os -ffreestanding -fno-exceptions -fno-rtti
-    -Wall -Wextra -Werror -I${ROOT} -I${ROOT}/firmware/config/native -I${CMAKE_CURRENT_LIST_DIR}
+  run(ignored ${CLANG} --target=avr ${device} -std=c++20 -Os -ffreestanding
+    -fno-exceptions -fno-rtti -Wall -Wextra -Werror -I${ROOT} -I${ROOT}/firmware/config/native -I${CMAKE_CURRENT_LIST_DIR}
     -c ${CMAKE_CURRENT_LIST_DIR}/${source} -o ${object})
   list(APPEND objects ${object})
 endforeach()

@@ -11,11 +11,9 @@
 #include "firmware/core/sine.hpp"
 #include "rover_words.hpp"
 
-namespace sample {
+namespace rover::sample {
 
 inline constexpr uint16_t kSquares[8] = {0, 1, 4, 9, 16, 25, 36, 49};
-
-using namespace rover;
 
 /// Folds the results of every helper into one word.
 template <class W16>
@@ -91,4 +89,4 @@ static constexpr uint32_t everything(int16_t a, int16_t b) {
     return native(fold(fold(first, second), third));
 }
 
-}  // namespace sample
+}  // namespace rover::sample

@@ -2,5 +2,5 @@
 #include "sample_kernel.hpp"
 
 uint32_t sample_with_plain_words(int16_t a, int16_t b) {
-    return sample::everything(a, b);
+    return rover::sample::everything(a, b);
 }

@@ -1,5 +1,5 @@
-// arith_test.cpp - sums, shifts, conversions and table access against 64 bit integers.
-#include "firmware/core/arith.hpp"
+// sums_test.cpp - sums, shifts, conversions and table access against 64 bit integers.
+#include "firmware/core/sums.hpp"
 
 #include <gtest/gtest.h>
 
