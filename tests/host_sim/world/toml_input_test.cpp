@@ -63,14 +63,14 @@ TEST(TomlTable, RefusesWithLineAndKey) {
         {[](const TomlTable& t) { t.table("inner").allow_only({"other"}); },
          "f.toml:7: 'inner.deep' is not known here; allowed: other"},
     };
-    const std::string message = error_of(one.use);
-    EXPECT_EQ(message.find(one.expected), message.find('\'') == 0 ? 0 : message.find(one.expected));
-    EXPECT_NE(message.find(one.expected), std::string::npos) << one.expected << ": " << message;
-}
-EXPECT_EQ(error_of([](const TomlTable& t) {
-              t.allow_only({"word", "count", "ratio", "list", "flag", "inner"});
-          }),
-          "no error");
+    for (const auto& one : cases) {
+        const std::string message = error_of(one.use);
+        EXPECT_NE(message.find(one.expected), std::string::npos) << one.expected << ": " << message;
+    }
+    EXPECT_EQ(error_of([](const TomlTable& t) {
+                  t.allow_only({"word", "count", "ratio", "list", "flag", "inner"});
+              }),
+              "no error");
 }
 
 TEST(ParseToml, SaysWhereTheTextIsNotToml) {
