@@ -77,7 +77,6 @@ private:
     std::vector<Column> columns_;
     std::array<std::size_t, kPartCount> column_count_{};
     std::array<std::size_t, kPartCount> required_count_{};
-    std::array<std::size_t, kPartCount> bytes_count_{};
     bool has_tick_ = false;
     std::size_t at_ = 0;
     std::uint64_t line_number_ = 0;
@@ -188,7 +187,6 @@ void CsvReader::add_column(std::string_view name) {
             columns_.push_back({&field, part});
             const auto index = static_cast<std::size_t>(part);
             ++column_count_[index];
-            if (field.type == FieldType::bytes) ++bytes_count_[index];
             if (!may_be_empty(columns_.back())) ++required_count_[index];
             if (name == "tick_count") has_tick_ = true;
             return;
