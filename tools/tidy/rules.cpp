@@ -123,6 +123,7 @@ Rules parse_rules(std::string_view toml_text) {
     Rules rules;
     read_limits(section(root, "limits"), rules);
     rules.include_directories = required_strings(section(root, "includes"), "directories");
+    rules.generated_includes = strings(section(root, "includes"), "generated");
     rules.mirror_paths = required_strings(section(root, "mirror"), "paths");
     each(constant_root["layer"], [&](const toml::table& entry) {
         rules.layers.push_back(

@@ -71,6 +71,7 @@ struct Rules {
     std::vector<FunctionLimit> function_limits;
     std::vector<FileLimit> file_limits;
     std::vector<std::string> include_directories;
+    std::vector<std::string> generated_includes;
     std::vector<Layer> layers;
     std::vector<std::string> mirror_paths;
     std::vector<ForbiddenPattern> forbidden;

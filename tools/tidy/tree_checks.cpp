@@ -53,6 +53,10 @@ std::vector<Include> includes_of(const SourceFile& file, const PathSet& paths, c
         ++number;
         std::smatch match;
         if (!std::regex_search(line, match, kInclude)) continue;
+        const auto& generated = rules.generated_includes;
+        if (std::find(generated.begin(), generated.end(), match[1].str()) != generated.end()) {
+            continue;
+        }
         includes.push_back({number, match[1].str(), resolve(match[1].str(), file, paths, rules)});
     }
     return includes;

@@ -77,6 +77,7 @@ TEST(Includes, AreFoundBesideTheFileAndInTheIncludeDirectories) {
     EXPECT_EQ(includes({{"tools/a.cpp", "\n#include \"gone.hpp\"\n"}}),
               Found{"tools/a.cpp:2:include-path"});
     EXPECT_EQ(includes({{"tools/a.cpp", "// #include \"gone.hpp\"\n"}}), Found{});
+    EXPECT_EQ(includes({{"tools/a.cpp", "#include \"firmware_identity.hpp\"\n"}}), Found{});
 }
 
 TEST(Includes, CyclesAreReportedOnceEach) {
