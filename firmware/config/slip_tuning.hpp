@@ -72,8 +72,8 @@ inline constexpr uint32_t kDriftPerTurnQ12Bin = 819;     ///< 0.5 cm per turning
 inline constexpr uint16_t kUninformedVarianceQ12 = 870;  ///< 0.85 of the prior's variance
 
 // -- Alarms ---------------------------------------------------------------------------------------
-inline constexpr uint16_t kSlipAlarmCostQ10 = 3072;  ///< 3
-inline constexpr int8_t kSlipAlarmPercent = 60;
+inline constexpr uint16_t kSlipAlarmCostQ10 = 3840;  ///< 3.75
+inline constexpr int8_t kSlipAlarmPercent = 30;
 inline constexpr uint16_t kPercentPerMeanQ16 = 667;  ///< 100 / 9830 in Q16
 inline constexpr int16_t kSinkageAlarmQ4Mm = 480;    ///< 30 mm
 

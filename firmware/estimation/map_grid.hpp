@@ -122,7 +122,8 @@ constexpr void map_grid_step(MapGrid& map, const MapGridInput& input) {
             slip::step_displaced(map, false);
             break;
     }
-    map.slip_alarm = map.match_cost_q10 > U16{slip::kSlipAlarmCostQ10} ||
+    // The running cost restarts lower when lock is lost, so the loss itself counts.
+    map.slip_alarm = map.lost_lock || map.match_cost_q10 > U16{slip::kSlipAlarmCostQ10} ||
                      slip::slip_percent(map) > S8{slip::kSlipAlarmPercent};
 }
 

@@ -45,7 +45,9 @@ public:
         input.ahead_count = 2;
         input.ahead_height_cm = {inputs.near_cm, inputs.far_cm};
         input.ahead_distance_cm = {kNearSampleCm, kFarSampleCm};
+        const std::uint32_t losses_before = estimator_.lost_lock_count();
         estimator_.step(input);
+        lost_lock_ = estimator_.lost_lock_count() != losses_before;
         return estimator_.advance_cm();
     }
     [[nodiscard]] double sinkage_cm() const override { return estimator_.sinkage_cm(); }
@@ -60,6 +62,7 @@ public:
 private:
     double mean_cm_;
     MapGridDouble estimator_;
+    bool lost_lock_ = false;
 };
 
 /// u16 place in 1/64 bin nearest to a distance in cm.
@@ -108,8 +111,11 @@ public:
         return rover::position_sigma_q4_mm(map_) / 160.0;
     }
     [[nodiscard]] std::optional<SlipLevels> slip_levels() const override {
-        return SlipLevels{map_.match_cost_q10 / 1024.0,
-                          static_cast<double>(rover::slip::slip_percent(map_))};
+        return SlipLevels{.match_cost = map_.match_cost_q10 / 1024.0,
+                          .slip_percent = static_cast<double>(rover::slip::slip_percent(map_)),
+                          .lost_lock = map_.lost_lock,
+                          .slip_alarm = map_.slip_alarm,
+                          .sinkage_alarm = map_.sinkage_alarm};
     }
 
 private:

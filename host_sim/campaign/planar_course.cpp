@@ -77,6 +77,12 @@ double PlanarCourse::draw_advance() {
         slope = std::max(0.0, slope) / lost_share;
         sunk_cm /= lost_share;
     }
+    if (options_.onset && position_cm_ >= options_.onset->at_cm) {
+        const AdvanceModel after{.kind = AdvanceKind::gaussian,
+                                 .mean_cm = options_.onset->mean_cm,
+                                 .sigma_cm = options_.onset->sigma_cm};
+        return std::max(0.0, draw_advance_cm(after, slope, sunk_cm, advance_random_));
+    }
     return draw_advance_cm(advance_, slope, sunk_cm, advance_random_);
 }
 

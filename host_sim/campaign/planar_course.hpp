@@ -33,11 +33,17 @@ std::string_view name_of(Scenario scenario);
 inline constexpr double kWheelNoiseCm = 0.004;
 inline constexpr double kLookAheadNoiseCm = 0.2;
 
+/// From `at_cm` of the rear wheel on, the advance is N(mean, sigma), never negative.
+struct SlipOnset {
+    double at_cm, mean_cm, sigma_cm;
+};
+
 struct CourseOptions {
     Scenario scenario = Scenario::gaussian;
     double true_mean_cm = 5.0;           ///< mean advance of a cycle, > 0
     double length_cm = kCourseLengthCm;  ///< the run ends with the first cycle that gets there
     double lock_bin_cm = 2.5;            ///< see RunMetrics
+    std::optional<SlipOnset> onset = std::nullopt;
 };
 
 /// What the vehicle and its sensors do, cycle by cycle; knows nothing of estimators.

@@ -40,10 +40,13 @@ struct CycleInputs {
     double far_cm = 0;       ///< z(4), look-ahead sample at 80 cm
 };
 
-/// What the slip alarm compares with its two thresholds.
+/// What the slip alarm compares with its two thresholds, and what came of it.
 struct SlipLevels {
     double match_cost = 0;    ///< running cost of matching, squared sigmas
     double slip_percent = 0;  ///< of the learned mean advance against the odometer
+    bool lost_lock = false;   ///< in this cycle; the running cost has restarted
+    bool slip_alarm = false;
+    bool sinkage_alarm = false;
 };
 
 class SlipEstimator {

@@ -205,6 +205,14 @@ double MapGridDouble::sigma_cm() const {
 }
 
 void MapGridDouble::step(const MapGridInput& input) {
+    const std::uint32_t losses_before = lost_lock_count_;
+    move(input);
+    // The running cost restarts lower when lock is lost, so the loss itself counts.
+    slip_alarm_ = lost_lock_count_ != losses_before || match_cost_ > tuning_.slip_alarm_cost ||
+                  100 * (1 - prior_mean_cm_ / tuning_.prior_mean_cm) > tuning_.slip_alarm_percent;
+}
+
+void MapGridDouble::move(const MapGridInput& input) {
     switch (input.motion) {
         case CycleMotion::turn:
         case CycleMotion::moved:
@@ -240,8 +248,6 @@ void MapGridDouble::step(const MapGridInput& input) {
         else if (position_cm_ >= static_cast<double>(lowest_) * tuning_.bin_cm)
             extend(input);
     }
-    slip_alarm_ = match_cost_ > tuning_.reacquire_cost * 0.75 ||
-                  100 * (1 - prior_mean_cm_ / tuning_.prior_mean_cm) > tuning_.slip_alarm_percent;
 }
 
 }  // namespace host_sim

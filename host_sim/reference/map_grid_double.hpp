@@ -18,16 +18,17 @@ struct MapGridTuning {
     double prior_sigma_cm = 1.25;   ///< spread of the advance in one cycle
     double sigma_per_rough = 0.25;  ///< residual sigma over mean second difference
     double sigma_floor_cm = 0.01;
-    double sigma_per_cost = 0.7;   ///< residual sigma widens with the running match cost ...
-    double sigma_widen_max = 3.0;  ///< ... by at most this factor
-    double cost_cap = 16;          ///< cost of one cycle in the running mean
-    double credible_fit = 25;      ///< a squared residual above this is no match: dead reckon
-    double reacquire_cost = 4;     ///< running cost above this: matching has failed
-    double reacquire_mean_cm = 5;  ///< prior mean is raised to this when it has
-    double slip_alarm_percent = 60;
-    double look_sigma_cm = 0.2;   ///< look-ahead noise that the sinkage shrinkage assumes
-    double look_per_rough = 0.3;  ///< interpolation error of the look-ahead surface over rho
-    double look_merge_cm = 2.0;   ///< samples nearer than this are averaged
+    double sigma_per_cost = 0.7;     ///< residual sigma widens with the running match cost ...
+    double sigma_widen_max = 3.0;    ///< ... by at most this factor
+    double cost_cap = 16;            ///< cost of one cycle in the running mean
+    double credible_fit = 25;        ///< a squared residual above this is no match: dead reckon
+    double reacquire_cost = 4;       ///< running cost above this: matching has failed
+    double reacquire_mean_cm = 5;    ///< prior mean is raised to this when it has
+    double slip_alarm_cost = 3.75;   ///< slip alarm above this running match cost ...
+    double slip_alarm_percent = 30;  ///< ... or above this slip of the learned mean
+    double look_sigma_cm = 0.2;      ///< look-ahead noise that the sinkage shrinkage assumes
+    double look_per_rough = 0.3;     ///< interpolation error of the look-ahead surface over rho
+    double look_merge_cm = 2.0;      ///< samples nearer than this are averaged
     double sinkage_alarm_cm = 3.0;
 };
 
@@ -102,6 +103,7 @@ private:
 
     double& at(long node) { return surface_cm_[static_cast<std::size_t>(node & (kNodes - 1))]; }
     double surface_at(double place_cm);
+    void move(const MapGridInput& input);
     void drop_map();
     void begin_map(const MapGridInput& input);
     bool can_match(const MapGridInput& input) const;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host_sim/bind/slip_estimators.hpp"
+#include "host_sim/campaign/alarm_sweep.hpp"
 #include "host_sim/campaign/slip_sweep.hpp"
 #include "host_sim/campaign/table1_sweep.hpp"
 
@@ -75,10 +76,11 @@ host_sim::Progress progress_bar() {
 }
 
 template <class Options>
-void add_run_options(CLI::App& app, Options& options) {
+void add_run_options(CLI::App& app, Options& options,
+                     std::uint32_t seeds_max = host_sim::kSweepSeedsMax) {
     app.add_option("--seeds", options.seeds, "Runs for every figure")
         ->type_name("N")
-        ->check(CLI::Range(1u, host_sim::kSweepSeedsMax))
+        ->check(CLI::Range(1u, seeds_max))
         ->capture_default_str();
     app.add_option("--seed-base", options.seed_base, "First seed; run i uses seed-base + i")
         ->type_name("S")
@@ -159,6 +161,25 @@ void add_table1(CLI::App& sweep, int& exit_code) {
     });
 }
 
+void add_alarm(CLI::App& sweep, int& exit_code) {
+    auto options = std::make_shared<host_sim::SweepAlarmOptions>();
+    CLI::App& alarm = *sweep.add_subcommand(
+        "alarm", "False alarms and detection delay of the slip and sinkage alarms, by threshold");
+    add_choice(alarm, "--arithmetic", options->arithmetic, kArithmeticNames,
+               "map_grid in the integers that fly, or its double-precision model");
+    add_choice(alarm, "--terrain", options->terrain, kTerrainNames,
+               "Random amplitudes, or those of the paper's own ground");
+    add_run_options(alarm, *options, 10000);
+    alarm.footer(
+        "Examples:\n"
+        "  rover85 sweep alarm --seeds 40\n"
+        "  rover85 sweep alarm --terrain fractal --seeds 100 --json alarm.json");
+    alarm.callback([options, &exit_code] {
+        exit_code = host_sim::run_sweep_alarm(*options, host_sim::make_slip_estimator, std::cout,
+                                              std::cerr, progress_bar());
+    });
+}
+
 }  // namespace
 
 void add_sweep_command(CLI::App& app, int& exit_code) {
@@ -169,4 +190,5 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
         "Example:\n  rover85 sweep slip --estimator map_grid --terrain fractal --seeds 40");
     add_slip(sweep, exit_code);
     add_table1(sweep, exit_code);
+    add_alarm(sweep, exit_code);
 }

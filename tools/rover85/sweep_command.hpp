@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-/// Adds `sweep slip` and `sweep table1` to the command line.
+/// Adds `sweep slip`, `sweep table1` and `sweep alarm` to the command line.
 /// @param exit_code  set when one of them has run: 0, or 2 for options that make no sense together.
 ///                   Must outlive `app`.
 void add_sweep_command(CLI::App& app, int& exit_code);
