@@ -53,7 +53,7 @@ DriveOptions checked(DriveOptions options) {
         options.max_time_s = 20.0 * options.length_cm / options.vehicle.speed_cm_per_s;
     }
     std::sort(options.hand_moves.begin(), options.hand_moves.end(),
-                     [](const HandMove& a, const HandMove& b) { return a.at_s < b.at_s; });
+              [](const HandMove& a, const HandMove& b) { return a.at_s < b.at_s; });
     return options;
 }
 
