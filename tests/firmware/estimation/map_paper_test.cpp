@@ -174,6 +174,10 @@ TEST(MapPaper, HeightsCountAsDifferencesOnly) {
     }
 }
 
+TEST(MapPaper, StateAt25CentimetresIs244Bytes) {
+    EXPECT_EQ(sizeof(MapPaper<10>), 244u);
+}
+
 // Any inputs at all. The sanitizer build of this test sees an index out of range.
 template <std::uint8_t kBin>
 void check_any_sequence(std::uint64_t seed) {

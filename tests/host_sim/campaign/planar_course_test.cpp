@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/campaign/slip_estimator.hpp"
+
 namespace {
 
 using namespace host_sim;
@@ -154,18 +156,6 @@ TEST(PlanarCourse, RefusesAnAdvanceOrALengthThatIsNotAboveZero) {
     const PlanarGround ground = level_ground();
     EXPECT_THROW(PlanarCourse(ground, {.true_mean_cm = 0}, 1), std::invalid_argument);
     EXPECT_THROW(PlanarCourse(ground, {.length_cm = 0}, 1), std::invalid_argument);
-}
-
-TEST(PlanarGround, ResamplingKeepsTheSamplesAndDrawsLinesBetweenThem) {
-    const PlanarGround finest = make_planar_ground(TerrainKind::wilcox1994, 1, 1000);
-    const PlanarGround coarse = finest.resampled(2.0);
-    for (int i = 0; i < 500; ++i) {
-        const double x_cm = 2.0 * i;
-        EXPECT_NEAR(coarse.ground_cm(x_cm), finest.ground_cm(x_cm), 1e-9);
-        EXPECT_NEAR(coarse.sinkage_cm(x_cm), finest.sinkage_cm(x_cm), 1e-9);
-        EXPECT_NEAR(coarse.ground_cm(x_cm + 1),
-                    0.5 * (finest.ground_cm(x_cm) + finest.ground_cm(x_cm + 2)), 1e-9);
-    }
 }
 
 /// Answers with what it was told to.
