@@ -56,7 +56,7 @@ struct SweepSlipResult {
 SweepSlipResult sweep_slip(const SweepSlipOptions& options, const SlipEstimatorFactory& factory,
                            const Progress& progress = {});
 
-/// The document of docs/spec: options and one row per roughness, with a final line feed.
+/// The options and one row per roughness, with a final line feed.
 std::string sweep_slip_json(const SweepSlipOptions& options, const SweepSlipResult& result);
 void print_sweep_slip(std::ostream& out, const SweepSlipOptions& options,
                       const SweepSlipResult& result);
