@@ -1,5 +1,6 @@
 // log_files_test.cpp - logs as files: which reader, RlogWriter and crashes, recover, odd paths.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -114,6 +115,24 @@ TEST_F(LogFiles, AFileBeyondTwoGigabytesIsRefusedBeforeItIsRead) {
     EXPECT_EQ(
         error_of([&] { load_log(path("huge")); }),
         path("huge").string() + ": is larger than 2 GiB; split the recording into shorter logs");
+}
+
+TEST_F(LogFiles, AWriteThatStopsHalfWayLeavesNoFileBehind) {
+    // RLIMIT_FSIZE makes the write itself fail, after the file beside the target was created.
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{100, 100};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        const std::string error =
+            error_of([&] { host_sim::write_rlog(path("a.rlog"), small_log()); });
+        ::_exit(error.find("File too large") != std::string::npos ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "the error was not reported";
+    EXPECT_EQ(file_count(), 0u);
 }
 
 TEST_F(LogFiles, WritingThroughALinkReplacesTheFileItNames) {
