@@ -446,8 +446,8 @@ TEST(Rlog, Utf8IsCheckedAsRfc3629Says) {
         EXPECT_TRUE(accepted(good)) << testing::PrintToString(good);
     }
     for (const char* bad : {"\x80", "\xC0\xAF", "\xC1\xBF", "\xC2", "\xC2x", "\xE0\x9F\xBF",
-                            "\xE2\x82", "\xED\xA0\x80", "\xF0\x8F\xBF\xBF", "\xF4\x90\x80\x80",
-                            "\xF5\x80\x80\x80", "\xFF", "\xF0\x9F\x9A"}) {
+                            "\xE2\x82", "\xED\xA0\x80", "\xED\xBF\xBF", "\xF0\x8F\xBF\xBF",
+                            "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xFF", "\xF0\x9F\x9A"}) {
         EXPECT_FALSE(accepted(bad)) << testing::PrintToString(bad);
     }
 }
