@@ -1,7 +1,8 @@
 // host_target.hpp - the controller as a native program: the host side of "one controller, two
 // targets".
 // Depends on   firmware/executive/controller.hpp.
-// Contract     what comes out is what a board would send: commands, and estimates read back from the
+// Contract     what comes out is what a board would send: commands, and estimates read back from
+// the
 //              telemetry frame, never from the controller's memory.
 #pragma once
 

@@ -1,0 +1,44 @@
+// main.cpp - rover85: the command line. Each command is a file of its own; this one lists them.
+// Exit codes   0 pass, 1 regression or difference, 2 usage, 3 bad input (one line on standard
+// error).
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "host_sim/bind/host_target.hpp"
+#include "tools/rover85/calibrate_command.hpp"
+#include "tools/rover85/command_errors.hpp"
+#include "tools/rover85/import_command.hpp"
+#include "tools/rover85/main_job_command.hpp"
+#include "tools/rover85/recover_command.hpp"
+#include "tools/rover85/replay_command.hpp"
+#include "tools/rover85/simulate_command.hpp"
+#include "tools/rover85/sweep_command.hpp"
+
+int main(int argc, char** argv) {
+    CLI::App app("rover85: slip and sinkage firmware of a microrover, driven on the host.");
+    app.name("rover85");
+    app.set_version_flag("--version", host_sim::host_image_identity());
+    app.require_subcommand(1);
+    app.footer(
+        "Examples:\n"
+        "  rover85 simulate --terrain wilcox1994 --roughness 0.02 --out out/first\n"
+        "  rover85 replay out/first/traverse.rlog --out out/again\n"
+        "  rover85 sweep slip --estimator map_grid --arithmetic fixed --seeds 40\n"
+        "`rover85 COMMAND --help` shows the options of a command, with examples.");
+    int exit_code = kExitPass;
+    add_simulate_command(app, exit_code);
+    add_replay_command(app, exit_code);
+    add_sweep_command(app, exit_code);
+    add_recover_command(app, exit_code);
+    add_calibrate_command(app, exit_code);
+    add_import_command(app, exit_code);
+    add_report_command(app, exit_code);
+    add_main_job_command(app, exit_code);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? kExitPass : kExitUsage;
+    }
+    return exit_code;
+}
