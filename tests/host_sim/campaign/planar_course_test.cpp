@@ -181,4 +181,20 @@ TEST(RunCourse, ScoresTheEstimatorItIsGiven) {
     EXPECT_NEAR(static_cast<double>(result.cycles), 1250, 40);
 }
 
+TEST(PlanarCourse, FromTheOnsetOnTheAdvanceIsAsGivenAndNeverNegative) {
+    const PlanarGround ground = level_ground();
+    CourseOptions options;
+    options.onset = SlipOnset{.at_cm = 1000, .mean_cm = 1, .sigma_cm = 0.5};
+    PlanarCourse course(ground, options, 4);
+    std::vector<double> after_cm;
+    while (course.position_cm() < 3000) {
+        const double before_cm = course.position_cm();
+        (void)course.next();
+        if (before_cm >= 1000) after_cm.push_back(course.position_cm() - before_cm);
+    }
+    // 2000 draws: a standard error of 0.011 cm. Clipping at 0 raises the mean by 0.004 cm.
+    EXPECT_NEAR(moments(after_cm).mean, 1.0, 0.06);
+    EXPECT_GE(moments(after_cm).least, 0);
+}
+
 }  // namespace

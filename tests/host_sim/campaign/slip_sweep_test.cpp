@@ -142,6 +142,24 @@ TEST(RunSweepSlip, RefusesBadOptionsWithOneLineAndCode2) {
     refused(options, "prior sigma");
 }
 
+TEST(RunSweepSlip, RefusesABinOrAPriorSigmaForMapGrid) {
+    std::string out;
+    std::string err;
+    SweepSlipOptions options{.estimator = EstimatorKind::map_grid, .seeds = 1, .length_cm = 200};
+    EXPECT_EQ(run(options, out, err), 0);
+    options.bin_cm = 2.5;
+    EXPECT_EQ(run(options, out, err), 2);
+    EXPECT_NE(err.find("--bin"), std::string::npos) << err;
+    options.bin_cm.reset();
+    options.prior_sigma_cm = 1.25;
+    EXPECT_EQ(run(options, out, err), 2);
+    EXPECT_NE(err.find("--prior-sigma"), std::string::npos) << err;
+    options.prior_sigma_cm.reset();
+    options.prior_mean_cm = 6.5;
+    EXPECT_EQ(run(options, out, err), 2);
+    EXPECT_NE(err.find("[1, 6] cm"), std::string::npos) << err;
+}
+
 TEST(RunSweepSlip, SaysWhichFileItCannotWrite) {
     std::string out;
     std::string err;
