@@ -27,6 +27,17 @@ DriveOptions random_course(const Vehicle& vehicle, TerrainKind kind, double roug
     return options;
 }
 
+void add_exit_ramp(DriveOptions& options, double ramp_cm) {
+    if (!(ramp_cm >= 0) || ramp_cm > 1000)
+        throw InputError("a ramp must be from 0 to 1000 cm long");
+    if (ramp_cm == 0) return;
+    options.left = options.left.with_ramp(ramp_cm);
+    if (options.right) options.right = options.right->with_ramp(ramp_cm);
+    options.ramp_cm = ramp_cm;
+    options.start_cm = -ramp_cm;
+    options.length_cm += ramp_cm;
+}
+
 DriveOptions profile_course(const Vehicle& vehicle, const Profile& profile, const SinkageLaw& law,
                             double static_cm, std::uint64_t seed) {
     const Terrain ground = profile_terrain(profile);

@@ -21,6 +21,12 @@ std::optional<TerrainKind> terrain_kind(std::string_view name);
 DriveOptions random_course(const Vehicle& vehicle, TerrainKind kind, double roughness,
                            double length_m, std::uint64_t seed);
 
+/// Puts a level, firm exit ramp before x = 0, as long as said, and starts the drive on it: on it
+/// wheels neither slip nor sink (Wilcox 1994: the vehicle leaves the lander on a ramp of known
+/// geometry). The course grows by the ramp.
+/// @errors  InputError when ramp_cm is not from 0 to 1000
+void add_exit_ramp(DriveOptions& options, double ramp_cm);
+
 /// Measured ground with the rut of a real wheel in sand: sinkage = static + law(slip of the
 /// previous cycle), potentiometer noise as on Spirit. As long as the look-ahead samples have
 /// ground.

@@ -74,6 +74,7 @@ void Drive::begin_cycle(bool backwards) {
     const double slope = (backwards ? -1.0 : 1.0) * state_.left.z_front_cm / base_cm;
     cycle_advance_cm_ =
         draw_advance_cm(options_.advance, slope, state_.sinkage_front_cm, advance_random_);
+    if (options_.ramp_cm > 0 && rear_x_cm() < 0) cycle_advance_cm_ = kCycleCm;
     cycle_travel_cm_ = 0;
 }
 

@@ -44,6 +44,7 @@ struct DriveOptions {
     std::uint64_t seed = 1;
     double start_cm = 0;    ///< rear contact at the start
     double length_cm = 0;   ///< the course ends when the rear contact has come this far, > 0
+    double ramp_cm = 0;     ///< before x = 0 the ground is firm and nothing slips: an exit ramp
     double max_time_s = 0;  ///< gives up then; 0: twenty times the time at full speed without slip
 };
 

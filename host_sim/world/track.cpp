@@ -31,7 +31,28 @@ Track::Track(const Terrain& ground, double static_cm, const SinkageLaw& law)
     }
 }
 
+Track Track::with_ramp(double length_cm) const {
+    constexpr double kBehindCm = 150;
+    const double begin_cm = -length_cm - kBehindCm;
+    const auto count =
+        static_cast<std::size_t>((ground_.end_cm() - begin_cm) / kTerrainSpacingCm) + 1;
+    std::vector<double> heights(count), depths(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double x_cm = begin_cm + static_cast<double>(i) * kTerrainSpacingCm;
+        heights[i] = ground_cm(std::max(x_cm, 0.0));
+        depths[i] = makes_rut_ || x_cm < 0 ? 0.0 : sinkage_cm(x_cm);
+    }
+    const Terrain ground(begin_cm, kTerrainSpacingCm, std::move(heights));
+    if (!makes_rut_) {
+        return Track(ground, SinkageField(Terrain(begin_cm, kTerrainSpacingCm, std::move(depths))));
+    }
+    Track track(ground, static_cm_, law_);
+    track.firm_before_cm_ = 0;
+    return track;
+}
+
 double Track::rut_cm(double x_cm) const {
+    if (x_cm < firm_before_cm_) return 0;
     if (!(x_cm > ground_.begin_cm())) return rut_.front();
     const double place = (x_cm - ground_.begin_cm()) / kTerrainSpacingCm;
     const double last = static_cast<double>(settled_samples_ - 1);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "host_sim/world/soil.hpp"
@@ -28,6 +29,9 @@ public:
     /// Ground on which the front wheel makes a rut.
     /// @param static_cm  depth at slip 0, >= 0
     Track(const Terrain& ground, double static_cm, const SinkageLaw& law);
+
+    /// The same track with level, firm ground from -length_cm to 0, and a little behind that.
+    [[nodiscard]] Track with_ramp(double length_cm) const;
 
     [[nodiscard]] const Terrain& ground() const { return ground_; }
     [[nodiscard]] double ground_cm(double x_cm) const { return ground_.height_cm(x_cm); }
@@ -54,6 +58,8 @@ private:
     Terrain bearing_;  // with a field
     bool makes_rut_ = false;
     double static_cm_ = 0;
+    // Wheels do not sink before this place.
+    double firm_before_cm_ = -std::numeric_limits<double>::infinity();
     SinkageLaw law_;
     double wanted_cm_ = 0;             // depth that the present slip leads to
     double decay_ = 0;                 // of the distance from it, per sample

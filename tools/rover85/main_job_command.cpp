@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 constexpr double kCourseMinM = 20.0;
 constexpr double kBlendM = 0.30;
 constexpr double kStaticSinkageCm = 0.5;
+constexpr double kRampCm = 100;  // the paper's exit ramp: the first metre is known
 
 struct MainJobOptions {
     std::string data = "../shared/data", out = "out/main";
@@ -38,7 +39,15 @@ std::vector<host_sim::Profile> load_profiles(const fs::path& folder) {
             if (name.ends_with(".csv") && name != "index.csv") files.push_back(entry.path());
         }
     }
-    std::sort(files.begin(), files.end());
+    // Front and rear patches by turns, so that a course has both: by the name after the first word.
+    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+        const auto key = [](const fs::path& file) {
+            const std::string name = file.filename().string();
+            const std::size_t word = name.find('_');
+            return std::pair(word == std::string::npos ? name : name.substr(word), name);
+        };
+        return key(a) < key(b);
+    });
     std::vector<host_sim::Profile> profiles;
     for (const fs::path& file : files) profiles.push_back(host_sim::load_profile(file.string()));
     return profiles;
@@ -97,11 +106,13 @@ std::string percent(const report::Figure& figure) {
 void drive_each_profile(const std::vector<host_sim::Profile>& profiles,
                         const host_sim::SinkageLaw& law, const host_sim::Vehicle& vehicle,
                         std::uint64_t seed) {
-    fmt::print("Each profile by itself (the map is learned over the first half metre):\n");
+    fmt::print("Each profile by itself, after a level ramp of {:.1f} m without slip:\n",
+               kRampCm / 100);
     fmt::print("  {:<20} {:>7} {:>12} {:>12} {:>14}\n", "profile", "m", "position %", "odometer %",
                "sinkage rms mm");
     for (const host_sim::Profile& profile : profiles) {
-        const auto course = host_sim::profile_course(vehicle, profile, law, kStaticSinkageCm, seed);
+        auto course = host_sim::profile_course(vehicle, profile, law, kStaticSinkageCm, seed);
+        host_sim::add_exit_ramp(course, kRampCm);
         const report::Summary s = report::summarize(drive(course, vehicle, {}, profile.name));
         fmt::print("  {:<20} {:>7.2f} {:>12} {:>12} {:>14}\n",
                    fs::path(profile.name).filename().string(), s.true_distance_m.value_or(NAN),
@@ -133,9 +144,11 @@ int drive_measured_ground(const MainJobOptions& options,
         seams +=
             fmt::format("{}{:.2f}-{:.2f} m", seams.empty() ? "" : ", ", seam.begin_m, seam.end_m);
     }
-    notes["seams"] = seams;
-    const auto stitched =
+    notes["seams"] = seams + " (in the profile's distance, which begins at the end of the ramp)";
+    notes["ramp"] = fmt::format("{:.1f} m, level and firm, before the course", kRampCm / 100);
+    auto stitched =
         host_sim::profile_course(vehicle, course.profile, law, kStaticSinkageCm, options.seed);
+    host_sim::add_exit_ramp(stitched, kRampCm);
     fmt::print("Stitched course of {:.1f} m ({} seams, each blended over {:.2f} m):\n",
                course.profile.length_m(), course.seams.size(), kBlendM);
     write_drive_output(drive(stitched, vehicle, notes, "Driving"),
@@ -149,8 +162,9 @@ int drive_synthetic_ground(const MainJobOptions& options, const host_sim::Vehicl
         "No measured ground in {} (docs/guides/real-data.md names the data sets): driving a "
         "built-in synthetic course instead.\n",
         options.data);
-    const auto course = host_sim::random_course(vehicle, host_sim::TerrainKind::wilcox1994, 0.04,
-                                                62.5, options.seed);
+    auto course = host_sim::random_course(vehicle, host_sim::TerrainKind::wilcox1994, 0.04, 62.5,
+                                          options.seed);
+    host_sim::add_exit_ramp(course, kRampCm);
     write_drive_output(drive(course, vehicle,
                              {{"source", "simulated world"},
                               {"terrain", "synthetic: Wilcox 1994, roughness 0.04"}},

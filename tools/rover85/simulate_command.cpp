@@ -16,7 +16,7 @@ namespace {
 
 struct SimulateOptions {
     std::string terrain = "fractal", target = "host", out = "out/simulate";
-    double roughness = 0.02, length_m = 62.5;
+    double roughness = 0.02, length_m = 62.5, ramp_m = 1.0;
     bool length_given = false;
     std::uint64_t seed = 1;
     std::string right = "same", advance = "gaussian";
@@ -86,6 +86,7 @@ host_sim::DriveOptions drive_options(const SimulateOptions& options,
                 host_sim::make_sinkage(*kind, options.seed, span).scaled(options.roughness));
         }
     }
+    host_sim::add_exit_ramp(drive, 100 * options.ramp_m);
     drive.advance = advance_model(options);
     drive.sensors.noise_memory = options.noise_memory;
     drive.sensors.linkage_correlation = options.linkage_correlation;
@@ -112,6 +113,7 @@ int simulate(const SimulateOptions& options, const std::string& command_line) {
     if (!options.terrain.starts_with("profile:")) {
         head.notes["roughness"] = fmt::format("{}", options.roughness);
     }
+    head.notes["ramp"] = fmt::format("{} m, level and firm, before the course", options.ramp_m);
     head.notes["seed"] = fmt::format("{}", options.seed);
     head.notes["advance"] =
         fmt::format("{}, mean {} cm per 6 cm of wheel travel", options.advance, options.mean_cm);
@@ -139,6 +141,12 @@ void add_world_options(CLI::App& command, SimulateOptions& options) {
     const std::string world = "World";
     command.add_option("--right", options.right, "Ground under the right wheels")
         ->check(CLI::IsMember({"same", "own"}))
+        ->capture_default_str()
+        ->group(world);
+    command
+        .add_option("--ramp", options.ramp_m,
+                    "Level ramp before the course, on which nothing slips, m; 0: none")
+        ->check(CLI::Range(0.0, 10.0))
         ->capture_default_str()
         ->group(world);
     command.add_option("--advance", options.advance, "How the vehicle slips")
