@@ -9,7 +9,7 @@
 namespace hal {
 
 /// One potentiometer or inclinometer axis:
-/// angle_brad = (adc_q4_count - zero_q4_count) * gain_q16 / 2^16, rounded half up.
+/// angle_brad = (adc_q4_count - zero_q4_count) * gain_q16 / 2^16, ties away from zero.
 struct AngleCalibration {
     uint16_t zero_q4_count = 32760;  ///< Q4 counts at angle zero
     uint16_t gain_q16 = 16384;       ///< u16 Q16 brad per Q4 count; 0 means "not calibrated"

@@ -9,9 +9,11 @@ namespace rover {
 inline constexpr uint16_t kTicksPerStep = 10;  ///< 100 Hz ticks in a 10 Hz control step
 
 // -- Odometry ---------------------------------------------------------------------------------
-inline constexpr int16_t kCycleTravelQ4Mm = 960;       ///< 60.0 mm: one slip-and-sinkage cycle
-inline constexpr uint16_t kTachDisagreeQ4Mm = 240;     ///< 15 mm in a cycle: a tachometer fault
-inline constexpr uint16_t kTachStepMaxCount = 0x3FFF;  ///< more pulses in a step: counter upset
+inline constexpr int16_t kCycleTravelQ4Mm = 960;        ///< 60.0 mm: one slip-and-sinkage cycle
+inline constexpr int16_t kCycleOdometerMaxQ6Bin = 500;  ///< 195 mm: the estimator's odometry ends
+inline constexpr uint16_t kTachDisagreeQ4Mm = 240;      ///< 15 mm in a cycle: a tachometer fault
+inline constexpr uint16_t kTachStepMaxCount = 16000;    ///< more pulses in a step: counter upset
+inline constexpr int16_t kTachLeadMaxCount = 8;         ///< a wheel ahead of its side: remembered
 
 // -- Sensor faults ----------------------------------------------------------------------------
 inline constexpr uint8_t kStuckCycles = 8;      ///< identical sums in so many cycles: stuck

@@ -13,11 +13,9 @@ inline constexpr uint16_t kRockerQ6Bin = 960;         ///< the same
 inline constexpr uint16_t kBogieArmQ4Mm = 2000;       ///< 125 mm: bogie pivot to either axle
 inline constexpr uint16_t kBogieArmQ6Bin = 320;       ///< the same
 inline constexpr uint16_t kBodyReferenceQ4Mm = 3000;  ///< 187.5 mm: rear axle to body pivot
-inline constexpr uint16_t kBodyReferenceQ6Bin = 480;  ///< the same
 
 /// Range samples look at these distances ahead of the body pivot, along the body.
 inline constexpr uint8_t kLookAheadCount = 2;
 inline constexpr uint16_t kLookAheadQ4Mm[kLookAheadCount] = {6600, 9800};   ///< 412.5, 612.5 mm
-inline constexpr uint16_t kLookAheadQ6Bin[kLookAheadCount] = {1056, 1568};  ///< the same
 
 }  // namespace rover::vehicle

@@ -22,7 +22,7 @@ enum Available : uint8_t {
     kAvailableAttitude = 1u << 1,   ///< pitch and roll
     kAvailableLinkage = 1u << 2,    ///< z1, z2 (pitch, differential, one bogie)
     kAvailableSlip = 1u << 3,       ///< slip and corrected position
-    kAvailableLookAhead = 1u << 4,  ///< fresh range samples
+    kAvailableLookAhead = 1u << 4,  ///< fresh range samples, and the left linkage
     kAvailableSinkage = 1u << 5,    ///< sinkage (linkage and look-ahead)
 };
 
@@ -33,8 +33,8 @@ enum Event : uint8_t {
     kEventSinkageAlarm = 1u << 2,  ///< sinkage alarm is up
     kEventLostLock = 1u << 3,      ///< the estimator has just declared loss of lock
     kEventTickGap = 1u << 4,       ///< ticks are missing between this step and the last
-    kEventSensorFault = 1u << 5,   ///< a sensor is absent, out of range or stuck (see faults)
-    kEventOverspeed = 1u << 6,     ///< more than one cycle's odometry in a single step
+    kEventSensorFault = 1u << 5,   ///< a fault bit is set (see faults); absence is none
+    kEventOverspeed = 1u << 6,     ///< more than 60 mm of odometry in a single step
 };
 
 /// Bits of Estimates::faults.
@@ -66,11 +66,12 @@ struct Estimates {
     int16_t sinkage_q4_mm = 0;           ///< s16 Q4 mm, at the front wheel; >= 0
     int16_t pitch_brad = 0;              ///< s16 brad, body, nose up positive
     int16_t roll_brad = 0;               ///< s16 brad, body, right side down positive
-    int16_t rocker_brad = 0;             ///< s16 brad, left rocker against the horizon
-    int16_t bogie_brad = 0;              ///< s16 brad, left bogie against the horizon
+    int16_t rocker_brad = 0;             ///< s16 brad, rocker against the horizon, nose up +
+    int16_t bogie_brad = 0;              ///< s16 brad, bogie against the horizon, nose up +
     int16_t height_middle_q4_mm = 0;     ///< s16 Q4 mm, z(1): middle wheel above the rear wheel
     int16_t height_front_q4_mm = 0;      ///< s16 Q4 mm, z(2): front wheel above the rear wheel
-    int16_t height_ahead_q4_mm[2] = {};  ///< s16 Q4 mm, z(3), z(4): look-ahead samples
+    int16_t height_ahead_q4_mm[2] = {};  ///< s16 Q4 mm, z(3), z(4), of the last cycle
+                                         ///< that saw the sample
 };
 
 }  // namespace rover

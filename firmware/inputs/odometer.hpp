@@ -1,9 +1,8 @@
 // odometer.hpp - six tachometer counters to rim travel: forward, and turning on the spot.
 // Depends on   hal/io.hpp, hal/calibration.hpp, core/arith.hpp.
 // Bounds       six wheels; no rounding is lost: remainders are carried.
-// Design note  the median of the wheels of a side is used, so one dead or racing tachometer in
-// three
-//              changes nothing but its fault bit.
+// Design note  docs/design/controller.md, "Odometry": a side is its middle wheel, so one dead or
+//              racing tachometer in three changes nothing but its fault bit.
 #pragma once
 
 #include "firmware/config/controller_tuning.hpp"
@@ -24,6 +23,9 @@ struct Odometer {
     int32_t turn_rest_q17_mm = 0;
     int32_t travel_q4_mm = 0;  ///< mean rim travel of both sides since reset
     int32_t turn_q4_mm = 0;    ///< half the difference of the sides since reset
+    /// Pulses that a wheel is ahead of its side, within +-kTachLeadMaxCount. The middle one of
+    /// three small whole numbers, taken anew in every step, would be a biased mean.
+    int16_t lead_count[hal::kWheelCount] = {};
     int16_t wheel_cycle_count[hal::kWheelCount] = {};  ///< pulses since the last cycle, saturating
 };
 
@@ -31,7 +33,7 @@ struct Odometer {
 struct OdometerStep {
     int16_t travel_q4_mm = 0;
     int16_t turn_q4_mm = 0;
-    bool moving = false;  ///< any wheel counted
+    bool moving = false;  ///< any present wheel counted
     bool valid = false;   ///< at least one side has a tachometer
 };
 
@@ -40,21 +42,52 @@ constexpr int16_t median3(int16_t a, int16_t b, int16_t c) {
     return max(min(a, b), min(max(a, b), c));
 }
 
-/// Pulses of one side: median of three, mean of two, the one, or none.
-constexpr bool side_pulses(const int16_t (&pulses)[hal::kWheelCount], uint8_t present,
-                           const uint8_t (&wheels)[3], int16_t& result) {
+constexpr bool is_present(uint8_t present, uint8_t wheel) {
+    return bit_and(shift_floor(present, wheel), uint8_t{1}) != 0;
+}
+
+/// What stands for one side: median of three, mean of two rounded down, the one.
+/// @return  number of wheels present; with 0, `result` is untouched
+constexpr uint8_t middle_of_side(const int16_t (&value)[hal::kWheelCount], uint8_t present,
+                                 const uint8_t (&wheels)[3], int16_t& result) {
     int16_t seen[3] = {};
     uint8_t count = 0;
     for (const uint8_t wheel : wheels) {
-        if (bit_and(shift_floor(present, wheel), uint8_t{1}) == 0) continue;
-        seen[count] = pulses[wheel];
+        if (!is_present(present, wheel)) continue;
+        seen[count] = value[wheel];
         ++count;
     }
-    if (count == 0) return false;
     if (count == 1) result = seen[0];
     if (count == 2) result = average(seen[0], seen[1]);
     if (count == 3) result = median3(seen[0], seen[1], seen[2]);
-    return true;
+    return count;
+}
+
+/// Pulses that a side advances in this step: its middle wheel's, counted since reset. What the
+/// other wheels are ahead or behind is kept, so that wheels which count in turn lose nothing; of
+/// two wheels it is the odd pulse.
+/// @return  false when no wheel of the side is present
+constexpr bool side_pulses(Odometer& odometer, const int16_t (&pulses)[hal::kWheelCount],
+                           uint8_t present, const uint8_t (&wheels)[3], int16_t& result) {
+    for (const uint8_t wheel : wheels) {
+        int16_t& lead = odometer.lead_count[wheel];
+        lead = is_present(present, wheel) ? add_wrap(lead, pulses[wheel]) : int16_t{0};
+    }
+    const uint8_t count = middle_of_side(odometer.lead_count, present, wheels, result);
+    int16_t odd_pulse = 0;
+    for (const uint8_t wheel : wheels) {
+        if (!is_present(present, wheel)) continue;
+        int16_t& lead = odometer.lead_count[wheel];
+        lead = sub_wrap(lead, result);
+        odd_pulse = add_wrap(odd_pulse, lead);
+        if (count == 2) lead = 0;
+        lead = clamp(lead, static_cast<int16_t>(-kTachLeadMaxCount), kTachLeadMaxCount);
+    }
+    if (count == 2) {
+        const uint8_t first = is_present(present, wheels[0]) ? wheels[0] : wheels[1];
+        odometer.lead_count[first] = odd_pulse;  // 0 or 1
+    }
+    return count > 0;
 }
 
 /// Takes whole sixteenths of a millimetre out of a remainder in Q17.
@@ -73,8 +106,9 @@ constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& i
         const int16_t difference =
             narrow_wrap_s16(sub_wrap(inputs.tach_count[wheel], odometer.last_count[wheel]));
         odometer.last_count[wheel] = inputs.tach_count[wheel];
-        // A counter that jumps by a quarter of its range has been upset, not driven.
-        if (!odometer.started || abs_u16(difference) > kTachStepMaxCount) continue;
+        if (!odometer.started || !is_present(inputs.tach_present, wheel)) continue;
+        // A counter that jumps by about a quarter of its range has been upset, not driven.
+        if (abs_u16(difference) > kTachStepMaxCount) continue;
         pulses[wheel] = difference;
         odometer.wheel_cycle_count[wheel] = add_sat(odometer.wheel_cycle_count[wheel], difference);
         if (difference != 0) step.moving = true;
@@ -82,9 +116,9 @@ constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& i
     odometer.started = true;
     int16_t left = 0;
     int16_t right = 0;
-    const bool has_left = side_pulses(pulses, inputs.tach_present, kLeftWheels, left);
-    const bool has_right = side_pulses(pulses, inputs.tach_present, kRightWheels, right);
-    if (!has_left && !has_right) return OdometerStep{};
+    const bool has_left = side_pulses(odometer, pulses, inputs.tach_present, kLeftWheels, left);
+    const bool has_right = side_pulses(odometer, pulses, inputs.tach_present, kRightWheels, right);
+    if (!has_left && !has_right) return step;
     if (!has_left) left = right;
     if (!has_right) right = left;
     // Twice the mean, so that no half pulse is lost: Q16 per pulse becomes Q17.
@@ -108,9 +142,9 @@ constexpr bool tachometers_disagree(Odometer& odometer, uint8_t present,
     for (uint8_t side = 0; side < 2; ++side) {
         const auto& wheels = side == 0 ? kLeftWheels : kRightWheels;
         int16_t middle = 0;
-        if (!side_pulses(odometer.wheel_cycle_count, present, wheels, middle)) continue;
+        if (middle_of_side(odometer.wheel_cycle_count, present, wheels, middle) == 0) continue;
         for (const uint8_t wheel : wheels) {
-            if (bit_and(shift_floor(present, wheel), uint8_t{1}) == 0) continue;
+            if (!is_present(present, wheel)) continue;
             const int16_t off = sub_sat(odometer.wheel_cycle_count[wheel], middle);
             const uint32_t off_q4_mm =
                 shift_floor<12>(mul_wide(abs_u16(off), calibration.tach_q16_mm_per_count));

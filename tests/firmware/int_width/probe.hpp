@@ -70,10 +70,12 @@ void run(const char* name, uint16_t rounds, Check check) {
 /// The groups of each part; the same on every target.
 void run_core_groups();
 void run_estimation_groups();
+void run_controller_groups();
 
 inline void run_groups() {
     run_core_groups();
     run_estimation_groups();
+    run_controller_groups();
 }
 
 }  // namespace probe

@@ -1,0 +1,61 @@
+// controller_state.hpp - everything the controller remembers, and its state after reset.
+// Depends on   firmware/inputs, firmware/estimation; hal/calibration.hpp.
+// Bounds       one plain value; no pointers.
+// Tests        tests/firmware/executive/controller_state_test.cpp
+#pragma once
+
+#include "firmware/estimation/map_grid_state.hpp"
+#include "firmware/executive/estimates.hpp"
+#include "firmware/inputs/angles.hpp"
+#include "firmware/inputs/linkage.hpp"
+#include "firmware/inputs/odometer.hpp"
+#include "hal/calibration.hpp"
+
+namespace rover {
+
+/// Range scans as they arrive.
+struct ScanWatch {
+    uint8_t last_scan_count = 0;
+    uint8_t age_steps = kScanStaleSteps;  ///< since the last new scan, saturating at the limit
+    bool seen = false;                    ///< a scan has ever arrived
+};
+
+/// Everything the controller remembers.
+struct Controller {
+    hal::Calibration calibration;
+    uint16_t calibration_fault = 0;  ///< kFaultCalibration when nominal values are in use
+    Estimates estimates;
+    StuckWatch stuck;
+    Odometer odometer;
+    ScanWatch scan;
+    MapGrid map;
+    bool started = false;
+    uint16_t sensor_faults = 0;                     ///< tachometer fault of the last cycle
+    int32_t cycle_travel_q4_mm = kCycleTravelQ4Mm;  ///< odometer when the next forward cycle is due
+    int32_t last_travel_q4_mm = 0;                  ///< odometer at the last cycle
+    int32_t last_turn_q4_mm = 0;
+    int16_t odometer_rest_q6 = 0;  ///< remainder of the conversion to 1/64 bin, [0, 24]
+    Side side = Side::none;        ///< side whose linkage made the map
+    bool resting = false;
+    int16_t rest_middle_q4_mm = 0, rest_front_q4_mm = 0;  ///< heights when the wheels stopped
+};
+
+/// Can the record be used? Its version is known and no value makes a computation meaningless.
+constexpr bool is_valid(const hal::Calibration& calibration) {
+    return calibration.version == hal::kCalibrationVersion &&
+           calibration.tach_q16_mm_per_count != 0 && calibration.tach_counts_per_turn != 0 &&
+           calibration.wheel_radius_q4_mm != 0;
+}
+
+/// Puts the controller into its state after reset. A calibration record that is not valid is
+/// replaced by the nominal one and reported as kFaultCalibration in every step.
+constexpr void controller_reset(Controller& controller, const hal::Calibration& calibration) {
+    controller = Controller{};
+    if (is_valid(calibration)) {
+        controller.calibration = calibration;
+    } else {
+        controller.calibration_fault = kFaultCalibration;
+    }
+}
+
+}  // namespace rover

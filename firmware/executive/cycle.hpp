@@ -1,0 +1,166 @@
+// cycle.hpp - when a slip-and-sinkage cycle is due, of which motion, and how it is run.
+// Depends on   executive/reporting.hpp (events), estimation/map_grid.hpp, firmware/inputs.
+// Bounds       at most one cycle a step.
+// Design note  docs/design/controller.md     Tests  tests/firmware/executive/cycle_test.cpp
+#pragma once
+
+#include "firmware/estimation/map_grid.hpp"
+#include "firmware/executive/reporting.hpp"
+
+namespace rover::executive {
+
+/// The samples of a scan that this vehicle uses.
+inline constexpr uint8_t kLookAheadBits = (1u << vehicle::kLookAheadCount) - 1u;
+
+/// Counts scans; true while the last one is fresh enough to use.
+constexpr bool watch_scan(ScanWatch& scan, const hal::RawInputs& inputs) {
+    const bool present = bit_and(inputs.range_present, kLookAheadBits) != 0;
+    const bool is_new = present && (!scan.seen || inputs.range_scan_count != scan.last_scan_count);
+    if (is_new) {
+        scan.seen = true;
+        scan.age_steps = 0;
+    } else if (scan.age_steps < kScanStaleSteps) {
+        ++scan.age_steps;
+    }
+    scan.last_scan_count = inputs.range_scan_count;
+    return present && scan.seen && scan.age_steps <= kScanFreshSteps;
+}
+
+/// Can look-ahead samples be joined to this pose? They lie ahead of the left wheels.
+constexpr bool can_look_ahead(const LinkagePose& pose, bool scan_fresh) {
+    return scan_fresh && pose.side == Side::left;
+}
+
+/// Fills in the look-ahead part of a cycle's input and of the estimates.
+constexpr void add_look_ahead(Controller& controller, const hal::RawInputs& inputs,
+                              const LinkagePose& pose, int16_t pitch_brad, MapGridInput& input) {
+    for (uint8_t i = 0; i < vehicle::kLookAheadCount; ++i) {
+        if (bit_and(shift_floor(inputs.range_present, i), uint8_t{1}) == 0) continue;
+        const int16_t range_q1_mm =
+            sub_sat(inputs.range_q1_mm[i], controller.calibration.range_offset_q1_mm);
+        const GroundPoint point = ground_point(pose, pitch_brad, i, range_q1_mm,
+                                               controller.calibration.wheel_radius_q4_mm);
+        input.ahead_height_q4_mm[input.ahead_count] = point.height_q4_mm;
+        input.ahead_distance_q6_bin[input.ahead_count] = point.distance_q6_bin;
+        ++input.ahead_count;
+        controller.estimates.height_ahead_q4_mm[i] = point.height_q4_mm;
+    }
+}
+
+/// Rim travel since the last cycle in 1/64 bin; the remainder is carried to the next.
+constexpr int16_t cycle_odometer_q6_bin(Controller& controller) {
+    const int32_t travel_q4_mm =
+        sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm);
+    controller.last_travel_q4_mm = controller.odometer.travel_q4_mm;
+    const int32_t scaled =
+        add_wrap(shift_left_wrap<2>(travel_q4_mm), widen_s32(controller.odometer_rest_q6));
+    const int32_t whole = div_floor(scaled, int32_t{25});
+    controller.odometer_rest_q6 = narrow_wrap_s16(sub_wrap(scaled, mul_wrap(whole, int32_t{25})));
+    return narrow_sat_s16(whole);
+}
+
+/// Which cycle, if any, is due after this step's odometry?
+constexpr bool cycle_due(const Controller& controller, CycleMotion& motion) {
+    const int32_t since = sub_wrap(controller.odometer.travel_q4_mm, controller.cycle_travel_q4_mm);
+    if (since >= 0) {
+        motion = CycleMotion::forward;
+        return true;
+    }
+    if (since <= -2 * int32_t{kCycleTravelQ4Mm}) {
+        motion = CycleMotion::reverse;
+        return true;
+    }
+    const int32_t turn = sub_wrap(controller.odometer.turn_q4_mm, controller.last_turn_q4_mm);
+    motion = CycleMotion::turn;
+    return abs_u32(turn) >= uint32_t{kCycleTravelQ4Mm};
+}
+
+/// Sets the odometer reading of the next forward cycle. Forward it counts from the last one, so
+/// that cycles come every 60.0 mm on average; after a step of more than a whole cycle, and in every
+/// other motion, from here.
+constexpr void schedule_next(Controller& controller, CycleMotion motion) {
+    const int32_t from_here = add_wrap(controller.odometer.travel_q4_mm, int32_t{kCycleTravelQ4Mm});
+    const int32_t from_last = add_wrap(controller.cycle_travel_q4_mm, int32_t{kCycleTravelQ4Mm});
+    const bool ahead = sub_wrap(from_last, controller.odometer.travel_q4_mm) > 0;
+    controller.cycle_travel_q4_mm = motion == CycleMotion::forward && ahead ? from_last : from_here;
+    controller.last_turn_q4_mm = controller.odometer.turn_q4_mm;
+}
+
+/// Has somebody moved the vehicle while its wheels stood still?
+constexpr bool moved_at_rest(Controller& controller, const LinkagePose& pose, bool moving) {
+    if (moving || pose.side == Side::none || pose.side != controller.side) {
+        controller.resting = false;
+        return false;
+    }
+    if (!controller.resting) {
+        controller.resting = true;
+        controller.rest_middle_q4_mm = pose.middle_height_q4_mm;
+        controller.rest_front_q4_mm = pose.front_height_q4_mm;
+        return false;
+    }
+    const bool moved =
+        abs_u16(sub_sat(pose.middle_height_q4_mm, controller.rest_middle_q4_mm)) > kMovedQ4Mm ||
+        abs_u16(sub_sat(pose.front_height_q4_mm, controller.rest_front_q4_mm)) > kMovedQ4Mm;
+    if (moved) controller.resting = false;
+    return moved;
+}
+
+/// Books way that no cycle measures: before a turn or a move by hand cut it short, or beyond a
+/// cycle's range. It was driven, and the position has already been reported with it.
+constexpr void book_unmeasured_way(MapGrid& map, int16_t odometer_q6_bin) {
+    const int16_t advance = learned_share(map, odometer_q6_bin);
+    slip::move_by(map, advance);
+    slip::add_odometry_doubt(map, advance);
+}
+
+/// The odometry of this cycle for the estimator, 1/64 bin. What lies beyond its range is booked as
+/// driven beforehand.
+constexpr int16_t forward_odometer(MapGrid& map, int16_t odometer_q6_bin) {
+    if (odometer_q6_bin <= kCycleOdometerMaxQ6Bin) return odometer_q6_bin;
+    book_unmeasured_way(map, sub_wrap(odometer_q6_bin, kCycleOdometerMaxQ6Bin));
+    return kCycleOdometerMaxQ6Bin;
+}
+
+/// Runs one slip-and-sinkage cycle.
+constexpr void run_cycle(Controller& controller, const hal::RawInputs& inputs,
+                         const LinkagePose& pose, int16_t pitch_brad, bool scan_fresh,
+                         CycleMotion motion) {
+    Estimates& estimates = controller.estimates;
+    MapGridInput input;
+    input.motion = motion;
+    const int16_t odometer_q6_bin = cycle_odometer_q6_bin(controller);
+    input.odometer_q6_bin = odometer_q6_bin;
+    schedule_next(controller, motion);
+    if (motion == CycleMotion::turn || motion == CycleMotion::moved) {
+        book_unmeasured_way(controller.map, odometer_q6_bin);
+    } else {
+        input.odometer_q6_bin = forward_odometer(controller.map, odometer_q6_bin);
+    }
+    if (pose.side != Side::none) {
+        // A map made by one side says nothing about the ground of the other.
+        if (controller.side != Side::none && controller.side != pose.side) {
+            slip::drop_map(controller.map);
+        }
+        controller.side = pose.side;
+        input.linkage = true;
+        input.middle_height_q4_mm = pose.middle_height_q4_mm;
+        input.front_height_q4_mm = pose.front_height_q4_mm;
+        input.middle_distance_q6_bin = pose.middle_distance_q6_bin;
+        input.front_distance_q6_bin = pose.front_distance_q6_bin;
+        if (can_look_ahead(pose, scan_fresh)) {
+            add_look_ahead(controller, inputs, pose, pitch_brad, input);
+        }
+    }
+    map_grid_step(controller.map, input);
+    if (motion != CycleMotion::moved) {
+        watch_cycle(controller.stuck, inputs);
+        const bool disagree =
+            tachometers_disagree(controller.odometer, inputs.tach_present, controller.calibration);
+        controller.sensor_faults = disagree ? uint16_t{kFaultTachometer} : uint16_t{0};
+    }
+    estimates.cycle_count = add_wrap(estimates.cycle_count, uint16_t{1});
+    set_event(estimates, kEventCycle);
+    if (controller.map.lost_lock) set_event(estimates, kEventLostLock);
+}
+
+}  // namespace rover::executive

@@ -1,0 +1,103 @@
+// reporting.hpp - what the controller knows, put into estimates and commands.
+// Depends on   executive/controller_state.hpp, estimation/map_grid.hpp, link/telemetry.hpp.
+// Bounds       no loop but the six wheels and the telemetry frame.
+// Design note  docs/design/controller.md     Tests  tests/firmware/executive/reporting_test.cpp
+#pragma once
+
+#include "firmware/estimation/map_grid.hpp"
+#include "firmware/executive/controller_state.hpp"
+#include "firmware/link/telemetry.hpp"
+#include "hal/io.hpp"
+
+namespace rover::executive {
+
+constexpr void set_event(Estimates& estimates, Event event) {
+    estimates.events = bit_or(estimates.events, static_cast<uint8_t>(event));
+}
+constexpr void set_available(Estimates& estimates, Available available) {
+    estimates.available = bit_or(estimates.available, static_cast<uint8_t>(available));
+}
+constexpr void set_fault(Estimates& estimates, Fault fault) {
+    estimates.faults = bit_or(estimates.faults, static_cast<uint16_t>(fault));
+}
+
+/// Step, tick and gap bookkeeping; clears what is per step.
+constexpr void begin_step(Controller& controller, const hal::RawInputs& inputs) {
+    Estimates& estimates = controller.estimates;
+    estimates.events = 0;
+    estimates.available = 0;
+    estimates.faults = controller.calibration_fault;
+    if (controller.started) {
+        estimates.step_count = add_wrap(estimates.step_count, uint16_t{1});
+        const uint16_t passed = sub_wrap(inputs.tick_count, estimates.tick_count);
+        if (passed > kTicksPerStep) set_event(estimates, kEventTickGap);
+    }
+    controller.started = true;
+    estimates.tick_count = inputs.tick_count;
+}
+
+/// 1/64 bin to mm Q4: times 25/4, rounded down; exact modulo 2^32.
+constexpr int32_t q4_mm_from_q6_bin(int32_t value) {
+    const int32_t twice = shift_left_wrap<1>(value);
+    const int32_t six_times = add_wrap(twice, shift_left_wrap<1>(twice));
+    return add_wrap(six_times, shift_floor<2>(value));
+}
+
+/// The share of a rim travel that the vehicle is taken to have advanced: the learned share forward,
+/// all of it backwards. The same in s16 Q4 mm and s16 1/64 bin; rounded down.
+constexpr int16_t learned_share(const MapGrid& map, int16_t rim_travel) {
+    if (rim_travel < 0) return rim_travel;
+    const int32_t share = mul_wide(rim_travel, map.mean_q12_bin);
+    return narrow_sat_s16(div_floor(share, int32_t{slip::kMeanNoSlipQ12Bin}));
+}
+
+/// Copies what the estimator knows into the estimates. Without linkage in this step, slip and
+/// sinkage count as not available and raise no alarm: nothing would ever take it back.
+constexpr void report_map(Controller& controller) {
+    Estimates& estimates = controller.estimates;
+    const MapGrid& map = controller.map;
+    estimates.mode = map.mode;
+    // Between cycles the position runs on with the learned share of the odometer.
+    const int16_t since_cycle_q4_mm =
+        narrow_sat_s16(sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm));
+    estimates.position_q4_mm = add_wrap(q4_mm_from_q6_bin(map.travelled_q6_bin),
+                                        widen_s32(learned_share(map, since_cycle_q4_mm)));
+    estimates.odometer_q4_mm = controller.odometer.travel_q4_mm;
+    estimates.position_sigma_q4_mm = position_sigma_q4_mm(map);
+    estimates.advance_q4_mm = narrow_sat_s16(q4_mm_from_q6_bin(widen_s32(map.advance_q6_bin)));
+    estimates.slip_percent = slip::slip_percent(map);
+    estimates.match_cost_q4 = shift_floor<6>(map.match_cost_q10);
+    estimates.sinkage_q4_mm = map.sinkage_q4_mm;
+    if (bit_and(estimates.available, uint8_t{kAvailableLinkage}) == 0) return;
+    // Backwards no new ground is felt: the sinkage would be that of another place.
+    const bool sinkage = map.sinkage_valid && map.mode != SlipMode::reversing;
+    if (map.has_map && map.measured) set_available(estimates, kAvailableSlip);
+    if (sinkage) set_available(estimates, kAvailableSinkage);
+    if (map.slip_alarm) set_event(estimates, kEventSlipAlarm);
+    if (sinkage && map.sinkage_alarm) set_event(estimates, kEventSinkageAlarm);
+}
+
+/// Angles and linkage into the estimates.
+constexpr void report_attitude(Estimates& estimates, const Angles& angles,
+                               const LinkagePose& pose) {
+    const AngleReading& pitch = angles[hal::AngleChannel::pitch];
+    const AngleReading& roll = angles[hal::AngleChannel::roll];
+    estimates.pitch_brad = pitch.brad;
+    estimates.roll_brad = roll.brad;
+    if (pitch.valid && roll.valid) set_available(estimates, kAvailableAttitude);
+    estimates.rocker_brad = pose.rocker_brad;
+    estimates.bogie_brad = pose.bogie_brad;
+    estimates.height_middle_q4_mm = pose.middle_height_q4_mm;
+    estimates.height_front_q4_mm = pose.front_height_q4_mm;
+    if (pose.side != Side::none) set_available(estimates, kAvailableLinkage);
+}
+
+/// Drive ahead; slower while an alarm is up. Telemetry carries all estimates.
+constexpr void command(const Estimates& estimates, hal::Commands& commands) {
+    const uint8_t alarms = static_cast<uint8_t>(kEventSlipAlarm | kEventSinkageAlarm);
+    const bool caution = bit_and(estimates.events, alarms) != 0;
+    for (int8_t& drive : commands.drive_percent) drive = caution ? kCautionPercent : kCruisePercent;
+    commands.telemetry_size = write_telemetry(estimates, commands.telemetry);
+}
+
+}  // namespace rover::executive

@@ -1,0 +1,102 @@
+// reporting_test.cpp - units, the position between cycles, availability, alarms and commands.
+#include "firmware/executive/reporting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace rover;
+using namespace rover::executive;
+
+TEST(Q4MmFromQ6Bin, IsTwentyFiveQuartersRoundedDownModulo32Bits) {
+    for (const std::int64_t value :
+         {0ll, 1ll, 2ll, 3ll, -1ll, -2ll, -3ll, -4ll, 153ll, 100'000'007ll, -340'000'001ll,
+          2'147'483'647ll, -2'147'483'648ll}) {
+        const std::int64_t exact = (value * 25 - ((value * 25 % 4) + 4) % 4) / 4;
+        EXPECT_EQ(q4_mm_from_q6_bin(static_cast<std::int32_t>(value)),
+                  static_cast<std::int32_t>(static_cast<std::uint32_t>(exact & 0xFFFFFFFF)))
+            << value;
+    }
+}
+
+TEST(LearnedShare, IsTheMeanOfSixCentimetresForwardAndAllOfItBackwards) {
+    MapGrid map;
+    EXPECT_EQ(learned_share(map, 960), 960);
+    for (const int mean : {1638, 4096, 8192, 9830}) {
+        map.mean_q12_bin = static_cast<std::int16_t>(mean);
+        for (int travel = 0; travel <= 32767; travel += 13) {
+            ASSERT_EQ(learned_share(map, static_cast<std::int16_t>(travel)),
+                      std::floor(travel * (mean / 9830.0) + 1e-9));
+        }
+        EXPECT_EQ(learned_share(map, -960), -960);
+    }
+}
+
+struct Report {
+    Controller controller;
+    Report() {
+        controller.map.has_map = controller.map.measured = true;
+        controller.map.sinkage_valid = true;
+        controller.map.mode = SlipMode::tracking;
+        controller.map.slip_alarm = controller.map.sinkage_alarm = true;
+    }
+    const Estimates& make(bool linkage) {
+        controller.estimates.events = 0;
+        controller.estimates.available = linkage ? kAvailableLinkage : 0;
+        report_map(controller);
+        return controller.estimates;
+    }
+};
+
+TEST(ReportMap, AlarmsAndSlipNeedTheLinkage) {
+    Report report;
+    EXPECT_EQ(report.make(true).available, kAvailableLinkage | kAvailableSlip | kAvailableSinkage);
+    EXPECT_EQ(report.make(true).events, kEventSlipAlarm | kEventSinkageAlarm);
+    EXPECT_EQ(report.make(false).available, 0);
+    EXPECT_EQ(report.make(false).events, 0);
+}
+
+TEST(ReportMap, SinkageAndItsAlarmAreNotThoseOfAnotherPlaceInReverse) {
+    Report report;
+    report.controller.map.mode = SlipMode::reversing;
+    EXPECT_EQ(report.make(true).available, kAvailableLinkage | kAvailableSlip);
+    EXPECT_EQ(report.make(true).events, kEventSlipAlarm);
+}
+
+TEST(ReportMap, SlipIsNotAvailableBeforeTheRearWheelStandsOnMeasuredGround) {
+    Report report;
+    report.controller.map.measured = false;
+    EXPECT_EQ(report.make(true).available & kAvailableSlip, 0);
+    report.controller.map.measured = true;
+    report.controller.map.has_map = false;
+    EXPECT_EQ(report.make(true).available & kAvailableSlip, 0);
+}
+
+TEST(ReportMap, PositionRunsOnFromTheLastCycleAcrossTheOdometersWrap) {
+    Report report;
+    report.controller.map.mean_q12_bin = 4915;  // half
+    report.controller.map.travelled_q6_bin = 64 * 100;
+    report.controller.last_travel_q4_mm = std::numeric_limits<std::int32_t>::max() - 99;
+    report.controller.odometer.travel_q4_mm = std::numeric_limits<std::int32_t>::min() + 300;
+    EXPECT_EQ(report.make(true).position_q4_mm, 100 * 400 + 200);
+}
+
+TEST(Command, DrivesAheadAndSlowlyWhileAnAlarmIsUp) {
+    for (const Event event : {kEventCycle, kEventSlipAlarm, kEventSinkageAlarm, kEventLostLock,
+                              kEventTickGap, kEventSensorFault, kEventOverspeed}) {
+        Estimates estimates;
+        set_event(estimates, event);
+        hal::Commands commands;
+        command(estimates, commands);
+        const bool alarm = event == kEventSlipAlarm || event == kEventSinkageAlarm;
+        for (const std::int8_t drive : commands.drive_percent) EXPECT_EQ(drive, alarm ? 50 : 100);
+        Estimates read;
+        ASSERT_TRUE(read_telemetry(commands.telemetry, commands.telemetry_size, read));
+        EXPECT_EQ(read.events, event);
+    }
+}
+
+}  // namespace
