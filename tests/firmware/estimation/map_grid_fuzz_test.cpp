@@ -60,9 +60,10 @@ MapGridInput any_input(Bits&& bits, bool plausible) {
     const bool fair = plausible || bits() % 2 == 0;
     input.middle_distance_q6_bin = static_cast<uint16_t>(fair ? small(620, 80) : small(0, 32767));
     input.front_distance_q6_bin = static_cast<uint16_t>(fair ? small(1240, 160) : small(0, 32767));
+    const uint32_t reach = plausible ? 1000 : 6000;  // the far ones fill the list of samples
     for (int i = 0; i < kLookAheadMax; ++i) {
         input.ahead_height_q4_mm[i] = static_cast<int16_t>(bits());
-        input.ahead_distance_q6_bin[i] = static_cast<uint16_t>(1400 + bits() % 1000);
+        input.ahead_distance_q6_bin[i] = static_cast<uint16_t>(1400 + bits() % reach);
     }
     return input;
 }

@@ -189,4 +189,12 @@ TEST(JudgeMatch, DeclaresLossOnceAndLockAfterTheCostHasFallen) {
     EXPECT_EQ(map.mode, SlipMode::tracking);
 }
 
+TEST(JudgeMatch, OneCycleCountsForSixteenAtMost) {
+    MapGrid map;
+    map.match_cost_q10 = 1024;
+    judge_match(map, 65535);
+    // 1 + (16 - 1)/8; the gain is 32/256 exactly.
+    EXPECT_EQ(map.match_cost_q10, 1024 + 15 * 128);
+}
+
 }  // namespace

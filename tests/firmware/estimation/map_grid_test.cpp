@@ -167,6 +167,17 @@ TEST(MapGrid, TracksAgainWithin80CyclesAfterTheLinkageDropsOutFor1To20) {
     }
 }
 
+TEST(MapGrid, TracksNotBeforeTheCostHasFallenAfterOneCycleWithoutLinkage) {
+    const auto ground = ground_of(760003, 0.02);
+    PlanarCourse course(ground, {}, 760003);
+    Rig rig(ground);
+    for (int i = 0; i < 100; ++i) rig.step(course.next());
+    rig.step(course.next(), false);
+    rig.fixed.match_cost_q10 = 2 * 1024;  // after one cycle it is 1.75 at least
+    rig.step(course.next());
+    EXPECT_EQ(rig.fixed.mode, SlipMode::reacquiring);
+}
+
 TEST(MapGrid, ReversingFollowsTheOdometerAndSaysSo) {
     const auto ground = ground_of(760000, 0.02);
     PlanarCourse course(ground, {}, 760000);
