@@ -33,10 +33,10 @@ struct Calibration {
         {32760, kPotentiometerGainQ16, false}, {32760, kInclinometerGainQ16, false},
         {32760, kInclinometerGainQ16, false},
     };
-    uint16_t wheel_radius_q4_mm = 1040;     ///< u16 Q4 mm: 65 mm (Rocky 3.2: 13 cm wheels)
-    uint16_t tach_counts_per_turn = 2000;   ///< tachometer pulses per wheel turn, [1, 65535]
-    uint16_t tach_q16_mm_per_count = 13383; ///< u16 Q16 mm of rim travel per pulse
-    int16_t range_offset_q1_mm = 0;         ///< s16 Q1 mm, subtracted from every range sample
+    uint16_t wheel_radius_q4_mm = 1040;      ///< u16 Q4 mm: 65 mm (Rocky 3.2: 13 cm wheels)
+    uint16_t tach_counts_per_turn = 2000;    ///< tachometer pulses per wheel turn, [1, 65535]
+    uint16_t tach_q16_mm_per_count = 13383;  ///< u16 Q16 mm of rim travel per pulse
+    int16_t range_offset_q1_mm = 0;          ///< s16 Q1 mm, subtracted from every range sample
 };
 
 }  // namespace hal
