@@ -16,6 +16,6 @@ inline constexpr uint16_t kBodyReferenceQ4Mm = 3000;  ///< 187.5 mm: rear axle t
 
 /// Range samples look at these distances ahead of the body pivot, along the body.
 inline constexpr uint8_t kLookAheadCount = 2;
-inline constexpr uint16_t kLookAheadQ4Mm[kLookAheadCount] = {6600, 9800};   ///< 412.5, 612.5 mm
+inline constexpr uint16_t kLookAheadQ4Mm[kLookAheadCount] = {6600, 9800};  ///< 412.5, 612.5 mm
 
 }  // namespace rover::vehicle
