@@ -54,7 +54,7 @@ constexpr S16 expected_advance_q12_bin(const MapGrid& map, const MapGridInput& i
 /// All nine costs and their first minimum.
 constexpr Match match_costs(const MapGrid& map, const MapGridInput& input, U16 first_half_bin) {
     // 16 steps per sigma, 16 units per mm: 2^20 / sigma_q8 is steps per unit in Q12.
-    const U16 per_sigma_q12 = div_floor_sat_u16(U32{uint32_t{1} << 20}, residual_sigma_q8_mm(map));
+    const U16 per_sigma_q12 = div_floor_sat_u16(U32{1048576}, residual_sigma_q8_mm(map));
     const U16 first_node = shift_floor<1>(first_half_bin);
     S16 residual[kResidualCount] = {};
     for (uint8_t i = 0; i < kResidualCount; ++i) {
