@@ -1,9 +1,7 @@
-// host_target.hpp - the controller as a native program: the host side of "one controller, two
-// targets".
+// host_target.hpp - the controller as a native program: one of its two targets.
 // Depends on   firmware/executive/controller.hpp.
 // Contract     what comes out is what a board would send: commands, and estimates read back from
-// the
-//              telemetry frame, never from the controller's memory.
+//              the telemetry frame, never from the controller's memory.
 #pragma once
 
 #include <functional>
