@@ -151,7 +151,8 @@ TEST(Cycle, MovingByHandDoesNotTakeBackWhatWasDriven) {
     bench.roll(0);
     ASSERT_EQ(bench.estimates().mode, SlipMode::moved);
     EXPECT_NEAR(bench.position_mm(), before_mm, 0.8);
-    EXPECT_GE(bench.estimates().position_sigma_q4_mm, sigma + 25 * 16);
+    // 25 mm for the move, and a quarter of the 45 mm that only the wheels measured.
+    EXPECT_NEAR((bench.estimates().position_sigma_q4_mm - sigma) / 16.0, 25 + 45 / 4.0, 1.5);
 }
 
 TEST(Cycle, TheRightBogieTakesOverAndTheMapIsDropped) {
@@ -171,6 +172,24 @@ TEST(Cycle, TheRightBogieTakesOverAndTheMapIsDropped) {
     bench.drive(900);
     EXPECT_TRUE(bench.has(rover::kAvailableSlip));
     EXPECT_FALSE(bench.has(rover::kAvailableSinkage));
+}
+
+TEST(Cycle, LookAheadHeightsAreWithoutTheCalibratedOffsetAndKeptWhileASampleIsUnseen) {
+    hal::Calibration calibration;
+    calibration.range_offset_q1_mm = 100;
+    RoverBench bench(calibration);
+    bench.inputs.range_q1_mm[0] = 100;
+    bench.inputs.range_q1_mm[1] = 140;
+    bench.roll(0);
+    bench.drive(70);
+    EXPECT_NEAR(bench.estimates().height_ahead_q4_mm[0] / 16.0, 0, 0.6);
+    EXPECT_NEAR(bench.estimates().height_ahead_q4_mm[1] / 16.0, 20, 0.6);
+    bench.inputs.range_present = 1;
+    bench.inputs.range_q1_mm[0] = 80;
+    bench.inputs.range_q1_mm[1] = 0;
+    bench.drive(60);
+    EXPECT_NEAR(bench.estimates().height_ahead_q4_mm[0] / 16.0, -10, 0.6);
+    EXPECT_NEAR(bench.estimates().height_ahead_q4_mm[1] / 16.0, 20, 0.6);
 }
 
 TEST(WatchScan, FreshForThreeStepsAndWrapsItsCounter) {
