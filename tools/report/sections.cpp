@@ -257,6 +257,7 @@ std::string provenance_section(const host_sim::Log& log, const Summary& summary,
     if (!summary.vehicle.empty()) row("Vehicle", summary.vehicle);
     row("Firmware", log.head.image_identity.empty() ? "none ran" : log.head.image_identity);
     if (!options.command_line.empty()) row("Command", options.command_line);
+    if (log.unverified) row("Integrity", "no checksum line in the log: edits go unnoticed");
     for (const auto& [name, value] : log.head.notes) row(name, value);
     std::string body = table("Where this came from",
                              "<th scope=\"col\">Item</th><th scope=\"col\">Value</th>", rows);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "host_sim/bind/host_target.hpp"
 #include "tools/rover85/calibrate_command.hpp"
@@ -37,6 +39,12 @@ int main(int argc, char** argv) {
     add_main_job_command(app, exit_code);
     try {
         app.parse(argc, argv);
+    } catch (const CLI::RequiredError& error) {
+        const std::vector<std::string> words = app.remaining();
+        if (words.empty()) return app.exit(error) == 0 ? kExitPass : kExitUsage;
+        fmt::print(stderr, "rover85: {}: no such command; `rover85 --help` lists them\n",
+                   words.front());
+        return kExitUsage;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kExitPass : kExitUsage;
     }

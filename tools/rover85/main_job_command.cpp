@@ -191,6 +191,7 @@ void add_main_job_command(CLI::App& app, int& exit_code) {
     command.add_option("--data", options->data, "Folder of the data sets")->capture_default_str();
     command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
     command.add_option("--seed", options->seed, "Everything random follows from it")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command.footer("Example:\n  rover85 main-job --out out/main");
     command.callback(

@@ -220,6 +220,7 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
                               ->check(CLI::Range(0.1, 10000.0))
                               ->capture_default_str();
     command.add_option("--seed", options->seed, "Everything random follows from it")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command.add_option("--target", options->target, "Where the controller runs")
         ->check(CLI::IsMember({"host"}))
