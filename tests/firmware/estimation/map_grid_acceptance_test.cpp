@@ -1,6 +1,7 @@
 // map_grid_acceptance_test.cpp - the estimator that flies, in fixed arithmetic, on courses that it
 // was not tuned on: every limit of docs/design/slip-and-sinkage.md, "Acceptance".
-// Seeds 700000 to 700039; limits from the requirements, not from what the code achieves.
+// Seeds from 700000, 40 of them if not said otherwise; limits from the requirements, not from what
+// the code achieves.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,6 +22,7 @@ struct Case {
     double prior_mean_cm, true_mean_cm;
     /// Limits on the mean |error|, %, by roughness; 0: none is stated.
     std::array<double, 6> limit_pct;
+    std::uint32_t seeds = 40;
 };
 
 constexpr Case kNominal = {"nominal", Scenario::gaussian, 6, 5, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5}};
@@ -33,7 +35,9 @@ constexpr Case kCases[] = {
     {"true mean 3", Scenario::gaussian, 6, 3, {1.5, 1.5, 1.5, 1.5, 1.5, 1.5}},
     {"correlated noise", Scenario::noise_corr, 6, 5, {0.4, 0.4, 0.4, 0.4, 0.4, 0.4}},
     {"noise 1 mm", Scenario::noise1mm, 6, 5, {2, 0.6, 0.6, 0.6, 0.6, 0.6}},
-    {"advance sigma 2 cm", Scenario::sigma2, 6, 5, {2, 2, 2, 2, 2, 2}},
+    // Two thirds of these runs lose lock and the rest scatter by 0.6 %: the difference of two
+    // models over the 15 that remain of 40 seeds has a standard error of 0.1 points by itself.
+    {"advance sigma 2 cm", Scenario::sigma2, 6, 5, {2, 2, 2, 2, 2, 2}, 240},
 };
 
 /// Runs each study once.
@@ -48,7 +52,7 @@ const SweepSlipResult& study(const Case& one, TerrainKind terrain, Arithmetic ar
                                    .scenario = one.scenario,
                                    .prior_mean_cm = one.prior_mean_cm,
                                    .true_mean_cm = one.true_mean_cm,
-                                   .seeds = 40,
+                                   .seeds = one.seeds,
                                    .seed_base = 700000,
                                    .threads = 1};
     return done.emplace(key, sweep_slip(options, make_slip_estimator)).first->second;
@@ -106,7 +110,7 @@ TEST_P(MapGridAcceptance, IntegersAreWithin0p1PointsOfDoubleWhereBothKeepLock) {
             if (one.limit_pct[i] == 0) continue;
             double difference_pct = 0;
             int both = 0;
-            for (std::size_t seed = 0; seed < 40; ++seed) {
+            for (std::size_t seed = 0; seed < fixed(one).runs[i].size(); ++seed) {
                 const RunResult& a = fixed(one).runs[i][seed];
                 const RunResult& b = floating(one).runs[i][seed];
                 if (a.lost_lock || b.lost_lock) continue;
@@ -126,7 +130,7 @@ TEST_P(MapGridAcceptance, IntegersLoseLockNoMoreOftenThanDouble) {
     int double_only = 0;
     for (const Case& one : kCases) {
         for (std::size_t i = 0; i < 6; ++i) {
-            for (std::size_t seed = 0; seed < 40; ++seed) {
+            for (std::size_t seed = 0; seed < fixed(one).runs[i].size(); ++seed) {
                 const bool a = fixed(one).runs[i][seed].lost_lock;
                 const bool b = floating(one).runs[i][seed].lost_lock;
                 fixed_only += a && !b ? 1 : 0;
