@@ -42,7 +42,12 @@ void say_drive(const Summary& summary, std::vector<std::string>& out) {
         }
         out.push_back(text + ".");
     } else if (wheels) {
-        out.push_back(fmt::format("The wheels turned {} in {}.", turned, duration));
+        out.push_back(fmt::format("The wheels turned {} forward in {}.", turned, duration));
+        const auto turning = summary.mode_share.find("turning");
+        if (turning != summary.mode_share.end() && turning->second >= 0.01) {
+            out.push_back(fmt::format("For {} of the time the vehicle turned on the spot.",
+                                      text_of_percent(100 * turning->second)));
+        }
         out.push_back("The log holds no true position, so no error can be given.");
     } else {
         out.push_back(

@@ -242,6 +242,16 @@ TEST(Sentences, OdometryOnlyIsCalledThat) {
     EXPECT_THAT(text, Not(HasSubstr("alarm")));
 }
 
+TEST(Sentences, TurningOnTheSpotExplainsWheelsThatWentNowhere) {
+    Log log = tiny_log();
+    for (LogStep& step : log.steps) step.truth.reset();
+    EXPECT_THAT(all_of(report::summarize(log)), Not(HasSubstr("turned on the spot")));
+    log.steps[3].estimates->mode = rover::SlipMode::turning;
+    const std::string text = all_of(report::summarize(log));
+    EXPECT_THAT(text, HasSubstr("The wheels turned 5.00 m forward in"));
+    EXPECT_THAT(text, HasSubstr("For 25 % of the time the vehicle turned on the spot."));
+}
+
 TEST(Texts, NumbersReadWell) {
     EXPECT_EQ(report::text_of_percent(-0.166), "0.17 %");
     EXPECT_EQ(report::text_of_percent(2.26), "2.3 %");
