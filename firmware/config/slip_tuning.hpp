@@ -48,8 +48,6 @@ inline constexpr uint8_t kLearnGainQ8[kLearnSteps + 1] = {
 // -- Roughness ------------------------------------------------------------------------------------
 inline constexpr uint16_t kInitialRoughQ8Mm = 768;  ///< 3 mm
 inline constexpr uint16_t kRoughMaxQ8Mm = 32767;    ///< 128 mm
-inline constexpr uint8_t kRoughJumpShift = 2;       ///< a bend above 4 x the mean: other ground
-inline constexpr uint8_t kRoughJumpGainQ8 = 64;     ///< ... learned with gain 1/4
 
 // -- Sinkage --------------------------------------------------------------------------------------
 inline constexpr uint8_t kSampleCount = 24;

@@ -114,11 +114,9 @@ constexpr void learn_roughness(MapGrid& map, S16 front_height_q4_mm) {
     const S16 step_before = sub_wrap(map.front_height_q4_mm, map.front_height_before_q4_mm);
     const U16 bend_q4_mm = abs_u16(sub_sat(step, step_before));
     const U16 bend_q8_mm = min(shift_left_sat<4>(bend_q4_mm), U16{kRoughMaxQ8Mm});
-    // Far rougher than ever lately: other ground, to be learned at once.
-    const bool jump = bend_q8_mm > shift_left_sat<kRoughJumpShift>(map.rough_q8_mm);
-    const uint8_t gain_q8 = jump ? kRoughJumpGainQ8 : kLearnGainQ8[map.rough_count];
-    map.rough_q8_mm = narrow_wrap_u16(
-        approach(narrow_wrap_s16(map.rough_q8_mm), narrow_wrap_s16(bend_q8_mm), gain_q8));
+    map.rough_q8_mm =
+        narrow_wrap_u16(approach(narrow_wrap_s16(map.rough_q8_mm), narrow_wrap_s16(bend_q8_mm),
+                                 kLearnGainQ8[map.rough_count]));
     if (map.rough_count < kLearnSteps) ++map.rough_count;
 }
 

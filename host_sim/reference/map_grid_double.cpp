@@ -13,7 +13,6 @@ constexpr double kGapMaxCm = 25;  // a longer step of the front wheel leaves a h
 constexpr std::size_t kSamplesMax = 24;
 constexpr double kDriftPerLossCm = 5;      // position uncertainty added when lock is lost
 constexpr double kUninformedShare = 0.85;  // posterior this near the prior: the ground said nothing
-constexpr double kRoughJump = 4;           // a bend this much above the mean is a change of ground
 constexpr double kDriftDivisor = 256;      // ... and the learned mean may be off by this share
 
 }  // namespace
@@ -146,9 +145,7 @@ void MapGridDouble::extend(const MapGridInput& input) {
         at(node) = front_height;
         lowest_ = std::max(lowest_, node - kNodes + 1);
         const double bend = std::abs(front_height - 2 * front_height_cm_ + front_height_before_cm_);
-        // Far rougher than ever lately: other ground, to be learned at once.
-        const bool jump = bend > kRoughJump * rough_cm_;
-        const double gain = jump ? 1.0 / 4 : std::max(1.0 / 32, 1.0 / (rough_count_ + 8));
+        const double gain = std::max(1.0 / 32, 1.0 / (rough_count_ + 8));
         if (rough_count_ < 24) ++rough_count_;
         rough_cm_ += (bend - rough_cm_) * gain;
         front_height_before_cm_ = front_height_cm_;
