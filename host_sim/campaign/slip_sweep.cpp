@@ -21,13 +21,25 @@ void require(bool holds, const char* message) {
     if (!holds) throw std::invalid_argument(message);
 }
 
+constexpr double kDefaultBinCm = 2.5;
+
+double bin_cm(const SweepSlipOptions& options) {
+    return options.bin_cm.value_or(kDefaultBinCm);
+}
+
+/// map_grid flies with one prior sigma, whatever is asked for.
+double prior_sigma_cm(const SweepSlipOptions& options) {
+    const double own_cm = default_prior_sigma_cm(options.estimator);
+    return options.estimator == EstimatorKind::map_grid ? own_cm
+                                                        : options.prior_sigma_cm.value_or(own_cm);
+}
+
 void check(const SweepSlipOptions& options) {
     require(options.seeds >= 1 && options.seeds <= kSweepSeedsMax,
             "seeds must lie in [1, 1000000]");
     if (options.estimator == EstimatorKind::map_grid) {
-        require(!options.bin_cm, "map_grid has its own bin of 2.5 cm; leave out --bin");
-        require(!options.prior_sigma_cm,
-                "map_grid has its own prior sigma of 1.25 cm; leave out --prior-sigma");
+        require(bin_cm(options) == kDefaultBinCm,
+                "map_grid has its own bin of 2.5 cm; leave out --bin");
     }
     require(!options.bin_cm || (*options.bin_cm >= 0.25 && *options.bin_cm <= 8),
             "bin must lie in [0.25, 8] cm");
@@ -42,12 +54,6 @@ void check(const SweepSlipOptions& options) {
             "course must be 1 m to 10 km long");
 }
 
-constexpr double kDefaultBinCm = 2.5;
-
-double bin_cm(const SweepSlipOptions& options) {
-    return options.bin_cm.value_or(kDefaultBinCm);
-}
-
 PlanarGround unit_ground(const SweepSlipOptions& options, std::uint64_t seed) {
     const PlanarGround finest = make_planar_ground(options.terrain, seed, options.length_cm);
     if (options.estimator == EstimatorKind::map_grid) return finest;
@@ -59,8 +65,7 @@ SlipEstimatorOptions estimator_options(const SweepSlipOptions& options) {
             .arithmetic = options.arithmetic,
             .bin_cm = bin_cm(options),
             .prior_mean_cm = options.prior_mean_cm,
-            .prior_sigma_cm =
-                options.prior_sigma_cm.value_or(default_prior_sigma_cm(options.estimator))};
+            .prior_sigma_cm = prior_sigma_cm(options)};
 }
 
 }  // namespace
@@ -171,6 +176,12 @@ void write_text(const std::string& path, const std::string& text, std::ostream& 
 int run_sweep_slip(const SweepSlipOptions& options, const SlipEstimatorFactory& factory,
                    std::ostream& out, std::ostream& err, const Progress& progress) {
     try {
+        if (options.prior_sigma_cm && *options.prior_sigma_cm != prior_sigma_cm(options)) {
+            fmt::print(err,
+                       "rover85 sweep slip: map_grid has its own prior sigma of {} cm; "
+                       "--prior-sigma is ignored\n",
+                       prior_sigma_cm(options));
+        }
         const SweepSlipResult result = sweep_slip(options, factory, progress);
         if (options.json_path != "-") print_sweep_slip(out, options, result);
         if (!options.json_path.empty()) {

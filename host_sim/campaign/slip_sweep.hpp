@@ -28,7 +28,8 @@ struct SweepSlipOptions {
     TerrainKind terrain = TerrainKind::wilcox1994;
     Scenario scenario = Scenario::gaussian;
     /// Of map_paper, and spacing of its ground's samples; nothing: 2.5. map_grid has its own bin
-    /// and prior sigma, so they are refused, and drives the ground as it was made, every 0.25 cm.
+    /// and prior sigma: another bin is refused, another sigma ignored with a note. It drives the
+    /// ground as it was made, every 0.25 cm.
     std::optional<double> bin_cm = std::nullopt;
     double prior_mean_cm = 6.0;  ///< map_grid: the learned mean at the start
     std::optional<double> prior_sigma_cm = std::nullopt;  ///< nothing: default_prior_sigma_cm()

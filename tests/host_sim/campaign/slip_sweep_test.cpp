@@ -142,18 +142,23 @@ TEST(RunSweepSlip, RefusesBadOptionsWithOneLineAndCode2) {
     refused(options, "prior sigma");
 }
 
-TEST(RunSweepSlip, RefusesABinOrAPriorSigmaForMapGrid) {
+TEST(RunSweepSlip, RefusesAnotherBinForMapGridAndIgnoresAnotherPriorSigmaWithANote) {
     std::string out;
     std::string err;
     SweepSlipOptions options{.estimator = EstimatorKind::map_grid, .seeds = 1, .length_cm = 200};
     EXPECT_EQ(run(options, out, err), 0);
-    options.bin_cm = 2.5;
+    const std::string as_it_flies = out;
+    options.bin_cm = 2.0;
     EXPECT_EQ(run(options, out, err), 2);
     EXPECT_NE(err.find("--bin"), std::string::npos) << err;
-    options.bin_cm.reset();
-    options.prior_sigma_cm = 1.25;
-    EXPECT_EQ(run(options, out, err), 2);
-    EXPECT_NE(err.find("--prior-sigma"), std::string::npos) << err;
+    options.bin_cm = 2.5;
+    EXPECT_EQ(run(options, out, err), 0);
+    EXPECT_EQ(out, as_it_flies);
+    EXPECT_EQ(err, "");
+    options.prior_sigma_cm = 0.05;
+    EXPECT_EQ(run(options, out, err), 0);
+    EXPECT_EQ(out, as_it_flies);
+    EXPECT_NE(err.find("--prior-sigma is ignored"), std::string::npos) << err;
     options.prior_sigma_cm.reset();
     options.prior_mean_cm = 6.5;
     EXPECT_EQ(run(options, out, err), 2);

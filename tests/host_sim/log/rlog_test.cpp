@@ -56,8 +56,8 @@ TEST(BitwiseCrc, GivesThePublishedCheckValue) {
     EXPECT_EQ(crc.value(), 0xCBF43926u);  // the check value in every CRC catalogue
 }
 
-// Written by hand from the specification's tables, not by the code.
-TEST(Rlog, GoldenBytesOfATinyLog) {
+/// A log in which every field has a value of its own.
+Log tiny_log() {
     Log log;
     log.head.vehicle = "v";
     log.head.calibration.angle[1] = {0x1234, 0x5678, true};
@@ -116,7 +116,12 @@ TEST(Rlog, GoldenBytesOfATinyLog) {
     c.telemetry_size = 1;
     c.telemetry[0] = 0xEE;
     log.steps.push_back(step);
+    return log;
+}
 
+// Written by hand from the specification's tables, not by the code.
+TEST(Rlog, GoldenBytesOfATinyLog) {
+    const Log log = tiny_log();
     const std::string head = from_hex(
         "01000000 76"     // vehicle
         "0100"            // calibration version
