@@ -88,7 +88,8 @@ TEST(Report, EveryAlarmOfALongLogIsInThePage) {
 TEST(Report, ChartsKeepTheGreatestSinkageOfEveryStep) {
     auto log = report_test::full_drive(75000);
     log.steps[54321].estimates->sinkage_q4_mm = 16 * 777;
-    for (const auto& chart : data_of(report_html(log, {}))["charts"]) {
+    const auto data = data_of(report_html(log, {}));
+    for (const auto& chart : data["charts"]) {
         EXPECT_LE(chart["time"].size(), ReportOptions{}.rows_per_chart_max);
         if (chart["id"] != "sinkage") continue;
         double greatest = 0;
@@ -101,7 +102,8 @@ TEST(Report, ChartsKeepTheGreatestSinkageOfEveryStep) {
 
 TEST(Report, ShortLogsAreDrawnWhole) {
     const auto page = report_html(report_test::full_drive(500), {});
-    for (const auto& chart : data_of(page)["charts"]) EXPECT_EQ(chart["time"].size(), 500u);
+    const auto data = data_of(page);
+    for (const auto& chart : data["charts"]) EXPECT_EQ(chart["time"].size(), 500u);
     EXPECT_TRUE(has(page, "draw every logged step"));
     EXPECT_FALSE(has(page, "thinned"));
 }
@@ -131,7 +133,8 @@ TEST(Report, TellsWhatAVehicleWithoutSuspensionCannotKnow) {
     EXPECT_TRUE(has(page, "Not available on this vehicle"));
     EXPECT_TRUE(has(page, "<li><strong>sinkage</strong>: needs "));
     EXPECT_TRUE(has(page, "no true position"));
-    for (const auto& chart : data_of(page)["charts"]) {
+    const auto data = data_of(page);
+    for (const auto& chart : data["charts"]) {
         EXPECT_THAT(std::string(chart["id"]), testing::AnyOf("attitude", "wheels"));
     }
     EXPECT_FALSE(
