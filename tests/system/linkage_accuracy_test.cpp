@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <tuple>
 
 #include "host_sim/bind/host_target.hpp"
@@ -61,6 +62,11 @@ TEST_P(TrueLinkage, MeanPositionErrorIsAtMostOnePercentOrTwoAtRoughness008) {
 
 INSTANTIATE_TEST_SUITE_P(AllRoughness, TrueLinkage,
                          testing::Combine(testing::Values("fractal", "wilcox1994"),
-                                          testing::Values(0.0025, 0.01, 0.04, 0.08)));
+                                          testing::Values(0.0025, 0.01, 0.04, 0.08)),
+                         [](const auto& one) {
+                             const double roughness = std::get<1>(one.param);
+                             return std::string(std::get<0>(one.param)) + "_" +
+                                    std::to_string(std::lround(10000 * roughness)) + "e4";
+                         });
 
 }  // namespace
