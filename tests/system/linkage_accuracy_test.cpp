@@ -1,5 +1,5 @@
 // linkage_accuracy_test.cpp - acceptance of "true linkage": the firmware's position error over the
-// course that `simulate` drives by default, 62.5 m with the true rocker-bogie.
+// course that `simulate` drives with --ramp 0, 62.5 m with the true rocker-bogie.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -39,6 +39,58 @@ TEST(RandomCourse, RefusesRoughnessAndLengthOutOfRange) {
     }
 }
 
+/// Drives to x = 0 and expects level attitude, no sinkage and no slip on the way.
+void expect_firm_ramp(const DriveOptions& options, double ramp_cm) {
+    const std::string where = "ramp of " + std::to_string(ramp_cm) + " cm";
+    EXPECT_EQ(options.start_cm, -ramp_cm) << where;
+    for (double x = -ramp_cm - 100; x < 0; x += 0.7) {
+        ASSERT_NEAR(options.left.ground_cm(x), options.left.ground_cm(0), 1e-9) << x;
+        ASSERT_EQ(options.left.sinkage_cm(x), 0) << x;
+    }
+    Drive drive(options);
+    const double length_cm = options.vehicle.rocker_cm + options.vehicle.bogie_arm_cm;
+    while (drive.state().position_cm < ramp_cm) {
+        drive.step(full_speed_ahead());
+        ASSERT_FALSE(drive.finished());
+        if (drive.state().position_cm >= ramp_cm) break;
+        ASSERT_NEAR(drive.state().position_cm, drive.state().odometer_cm, 1e-9);
+        if (drive.state().position_cm + length_cm < ramp_cm - kTerrainSpacingCm) {
+            ASSERT_NEAR(drive.state().pitch_rad, 0, 1e-9);
+        }
+    }
+}
+
+TEST(ExitRamp, IsLevelAndFirmAndNothingSlipsOnIt) {
+    DriveOptions field = random_course(rocky32(), TerrainKind::fractal, 0.04, 5, 7);
+    const DriveOptions bare = field;
+    add_exit_ramp(field, 100);
+    expect_firm_ramp(field, 100);
+    EXPECT_EQ(field.length_cm, bare.length_cm + 100);
+    for (double x = 0; x < 500; x += 1.7) {
+        ASSERT_NEAR(field.left.ground_cm(x), bare.left.ground_cm(x), 0.05) << x;  // resampled
+    }
+    Profile profile;
+    profile.name = "waves";
+    for (int i = 0; i <= 300; ++i) {
+        profile.distance_m.push_back(0.01 * i);
+        profile.height_m.push_back(0.02 * std::sin(0.1 * i));
+    }
+    DriveOptions rut = profile_course(rocky32(), profile, SinkageLaw{30, 1.7}, 0.4, 3);
+    add_exit_ramp(rut, 60);
+    expect_firm_ramp(rut, 60);
+}
+
+TEST(ExitRamp, RefusesLengthsOutOfRangeAndZeroChangesNothing) {
+    DriveOptions options = random_course(rocky32(), TerrainKind::fractal, 0.04, 5, 7);
+    const double length_cm = options.length_cm;
+    add_exit_ramp(options, 0);
+    EXPECT_EQ(options.start_cm, 0);
+    EXPECT_EQ(options.length_cm, length_cm);
+    for (const double ramp_cm : {-1.0, 1001.0, std::nan("")}) {
+        EXPECT_THROW(add_exit_ramp(options, ramp_cm), InputError);
+    }
+}
+
 TEST(ProfileCourse, RunsAsFarAsItSeesGround) {
     Profile profile;
     profile.name = "waves";
