@@ -73,6 +73,7 @@ struct CpuState {
     bool trap_saved_enable = false;  ///< IE as it was before that TRAP
     bool sod = false;
     std::array<PinState, kPinCount> pins{};
+    uint64_t pins_changed_t = 0;  ///< of the pin that changed last
 
     [[nodiscard]] uint16_t bc() const { return static_cast<uint16_t>(b << 8 | c); }
     [[nodiscard]] uint16_t de() const { return static_cast<uint16_t>(d << 8 | e); }
