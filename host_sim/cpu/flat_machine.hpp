@@ -13,7 +13,7 @@
 namespace host_sim {
 
 /// Why a run ended.
-enum class RunEnd : uint8_t { time_limit, halted, undefined_instruction };
+enum class RunEnd : uint8_t { time_limit, halted, undefined_instruction, violation };
 
 /// Plain state and the ways to advance it. All three agree on every state, bit for bit.
 class FlatMachine final : private FastHost {
