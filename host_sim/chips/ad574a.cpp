@@ -60,7 +60,9 @@ void Ad574a::decide_bit() {
     ++bits_decided;
     if (bits_decided < bit_count) return;
     converting = false;
-    if (bit_count < kResolution) code |= 1u << (kResolution - 1 - bit_count);  // the next trial
+    if (bit_count < kResolution) {  // the next bit has been tried and not decided
+        code = static_cast<uint16_t>(code | 1u << (kResolution - 1 - bit_count));
+    }
     ++conversion_count;
     if (input_moved) ++moved_input_count;
 }

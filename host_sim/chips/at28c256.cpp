@@ -125,7 +125,6 @@ void At28c256::begin() {
     held_count = 0;
     command_open = true;
     command = Command::none;
-    data_count = 0;
     toggle = true;
 }
 
@@ -164,12 +163,14 @@ void At28c256::take_held() {
 
 void At28c256::load_byte(uint16_t address, uint8_t value) {
     const auto new_page = static_cast<uint16_t>(address / kPageSize);
-    if (data_count > 0 && new_page != page) ++page_crossing_count;
+    if (latched != 0 && new_page != page) ++page_crossing_count;
     page = new_page;
     latches[address % kPageSize] = value;
     latched |= uint64_t{1} << address % kPageSize;
-    ++data_count;
-    data_address = address;
+    if (!may_program()) {
+        ++protected_write_count;
+        last_ignored_address = address;
+    }
 }
 
 bool At28c256::may_program() const {
@@ -185,10 +186,7 @@ void At28c256::complete() {
         for (uint32_t& count : page_writes) ++count;
         return;
     }
-    if (!may_program()) {
-        protected_write_count += data_count;
-        last_ignored_address = data_address;
-    } else if (latched != 0) {
+    if (latched != 0 && may_program()) {
         for (uint32_t i = 0; i < kPageSize; ++i) {
             if ((latched >> i & 1) != 0) contents[page * kPageSize + i] = latches[i];
         }

@@ -79,10 +79,8 @@ struct At28c256 {
     uint8_t held_third = 0;     ///< value of the third of them
     bool command_open = false;  ///< the cycle has had nothing but the beginning of a command
     Command command = Command::none;
-    uint32_t data_count = 0;    ///< bytes of this cycle that are data
-    uint16_t data_address = 0;  ///< of the last of them
-    uint8_t last_value = 0;     ///< last byte on the bus, for DATA polling
-    bool toggle = false;        ///< what bit 6 of the next polling byte is
+    uint8_t last_value = 0;  ///< last byte on the bus, for DATA polling
+    bool toggle = false;     ///< what bit 6 of the next polling byte is
 
     uint64_t cycle_count = 0;            ///< completed
     uint64_t interrupted_count = 0;      ///< cycles cut short by a power failure

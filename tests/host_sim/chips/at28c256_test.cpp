@@ -202,6 +202,7 @@ TEST(At28c256, ProtectedWriteProgramsNothingButTakesACycle) {
     Bench bench;
     bench.run(kProtect);
     bench.put({{0x300, 0x12}, {0x301, 0x34}});
+    EXPECT_EQ(bench.chip.protected_write_count, 2u) << "known as soon as it happens";
     EXPECT_TRUE(bench.chip.busy(bench.t + kCycleT - 1));
     EXPECT_EQ(bench.get(0x300) & 0x80, 0x80) << "polling: complement of 34h";
     bench.finish();
