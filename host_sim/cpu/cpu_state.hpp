@@ -29,11 +29,14 @@ enum class InstructionSet : uint8_t { documented, all };
 enum class Pin : uint8_t { trap, rst75, rst65, rst55, intr, sid };
 inline constexpr unsigned kPinCount = 6;
 
-/// An input pin and its last change, so that it can be sampled two T-states back.
+/// An input pin and its last two changes, so that it can be sampled two T-states back even when it
+/// has changed in each of them.
 struct PinState {
     bool level = false;
-    bool previous = false;   ///< the level before the last change
-    uint64_t changed_t = 0;  ///< T-state at whose beginning the level changed
+    bool previous = false;            ///< the level before the last change
+    bool older = false;               ///< the level before the change before
+    uint64_t changed_t = 0;           ///< T-state at whose beginning the level changed last
+    uint64_t previous_changed_t = 0;  ///< and before
 
     bool operator==(const PinState&) const = default;
 };
@@ -68,12 +71,13 @@ struct CpuState {
     uint8_t masks = mask::kAll;
     bool rst75_latch = false;
     uint64_t rst75_latched_t = 0;
-    bool trap_latch = false;         ///< a rising edge of TRAP is waiting
+    bool trap_latch = false;  ///< a rising edge of TRAP is waiting
+    uint64_t trap_latched_t = 0;
     bool trap_saved_valid = false;   ///< no RIM since the last TRAP
     bool trap_saved_enable = false;  ///< IE as it was before that TRAP
     bool sod = false;
     std::array<PinState, kPinCount> pins{};
-    uint64_t pins_changed_t = 0;  ///< of the pin that changed last
+    uint64_t pins_changed_t = 0;  ///< the latest change of all pins
 
     [[nodiscard]] uint16_t bc() const { return static_cast<uint16_t>(b << 8 | c); }
     [[nodiscard]] uint16_t de() const { return static_cast<uint16_t>(d << 8 | e); }
@@ -86,7 +90,8 @@ struct CpuState {
 };
 
 /// Drives an input pin from the beginning of T-state `t`, setting the RST 7.5 and TRAP edge
-/// latches. Calls for one pin come in the order of their times; an unchanged level is no event.
+/// latches. Calls for one pin come in the order of their times, none ahead of the next instruction
+/// boundary; an unchanged level is no event.
 void set_pin(CpuState& cpu, Pin which, bool level, uint64_t t);
 
 /// The RESET IN pin: PC 0, interrupts disabled and masked, latches cleared, SOD low, out of HALT.

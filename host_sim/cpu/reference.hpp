@@ -63,6 +63,7 @@ public:
     void accept(Interrupt interrupt) {
         t_ = s_.t;
         s_.halted = false;
+        s_.ei_shadow = false;  // the handler's first instruction does not stand behind EI
         if (interrupt == Interrupt::trap) {
             s_.trap_latch = false;
             s_.trap_saved_valid = true;
