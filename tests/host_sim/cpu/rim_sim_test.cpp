@@ -1,7 +1,8 @@
 // rim_sim_test.cpp - RIM and SIM: every bit, its enable, and what neither touches.
-// Sources      [DS] Intel 8085AH data sheet (1987), "Interrupt and Serial I/O".
-//              [UM] Intel MCS-80/85 Family User's Manual, chapter 5: RIM, SIM, with the figures of
-//              the accumulator before SIM and after RIM.
+// Data sheet   Intel 8085AH (1987), "Interrupt and Serial I/O".
+// Manual       Intel MCS-80/85 Family User's Manual: RIM and SIM with the figures of the
+// accumulator
+//              after RIM and before SIM.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -45,8 +46,8 @@ struct Bench : ScriptedMachine {
     }
 };
 
-// [UM] accumulator after RIM: SID I7.5 I6.5 I5.5 IE M7.5 M6.5 M5.5. The pending bits show latch and
-// pins whether masked or not. All 256 states.
+// Manual: accumulator after RIM: SID I7.5 I6.5 I5.5 IE M7.5 M6.5 M5.5. The pending bits show latch
+// and pins whether masked or not. All 256 states.
 TEST(Rim, ShowsSerialInputPendingEnableAndMasks) {
     for (int state = 0; state < 256; ++state) {
         SCOPED_TRACE(state);
@@ -97,7 +98,7 @@ TEST(Rim, ReadsThePinsInItsThirdTState) {
     }
 }
 
-// [UM] IE as EI and DI set it.
+// Manual: IE as EI and DI set it.
 TEST(Rim, ShowsTheEnableFlipFlop) {
     Bench bench;
     bench.execute_one(kEi);
@@ -107,8 +108,8 @@ TEST(Rim, ShowsTheEnableFlipFlop) {
     EXPECT_EQ(bench.rim(), 0x07);
 }
 
-// [DS] "the first RIM instruction following a TRAP" shows IE as it was before; all later ones the
-// current one.
+// Data sheet: "the first RIM instruction following a TRAP" shows IE as it was before; all later
+// ones the current one.
 TEST(RimAfterTrap, ShowsTheEnableBeforeTheTrapOnce) {
     for (const bool enabled : {false, true}) {
         Bench bench;
@@ -146,8 +147,8 @@ TEST(RimAfterTrap, ShowsTheEnableBeforeTheLatestTrap) {
     EXPECT_EQ(bench.rim(), 0x07);
 }
 
-// [UM] "a RIM following INTR or RST 5.5-7.5 will provide current interrupt enable status, revealing
-// that interrupts are disabled".
+// Manual: "a RIM following INTR or RST 5.5-7.5 will provide current interrupt enable status,
+// revealing that interrupts are disabled".
 TEST(RimAfterOtherInterrupts, ShowsThemDisabled) {
     for (const Pin pin : {Pin::rst75, Pin::rst65, Pin::rst55, Pin::intr}) {
         Bench bench;
@@ -159,8 +160,8 @@ TEST(RimAfterOtherInterrupts, ShowsThemDisabled) {
     }
 }
 
-// [UM] accumulator before SIM: SOD SOE - R7.5 MSE M7.5 M6.5 M5.5. All 256 accumulators from all 32
-// states of masks, SOD and latch.
+// Manual: accumulator before SIM: SOD SOE - R7.5 MSE M7.5 M6.5 M5.5. All 256 accumulators from all
+// 32 states of masks, SOD and latch.
 TEST(Sim, LoadsWhatItsEnableBitsSay) {
     for (int accumulator = 0; accumulator < 256; ++accumulator) {
         for (int state = 0; state < 32; ++state) {
