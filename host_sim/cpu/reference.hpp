@@ -131,7 +131,7 @@ private:
         case 0x23: t_ += 2; set_hl(count(s_.hl(), true)); break; case 0x24: inr(s_.h); break;
         case 0x25: dcr(s_.h); break; case 0x26: s_.h = operand(); break; case 0x27: daa(); break;
         case 0x28: if (!all_) return false;
-            t_ += 3; set_de(static_cast<uint16_t>(s_.hl() + operand())); break;
+            set_de(static_cast<uint16_t>(s_.hl() + operand())); t_ += 3; break;
         case 0x29: dad(s_.hl()); break; case 0x2A: set_hl(load_word(operand_word())); break;
         case 0x2B: t_ += 2; set_hl(count(s_.hl(), false)); break; case 0x2C: inr(s_.l); break;
         case 0x2D: dcr(s_.l); break; case 0x2E: s_.l = operand(); break;
@@ -142,7 +142,7 @@ private:
         case 0x35: dcr_memory(); break; case 0x36: store(s_.hl(), operand()); break;
         case 0x37: s_.f |= flag::kCarry; break;
         case 0x38: if (!all_) return false;
-            t_ += 3; set_de(static_cast<uint16_t>(s_.sp + operand())); break;
+            set_de(static_cast<uint16_t>(s_.sp + operand())); t_ += 3; break;
         case 0x39: dad(s_.sp); break; case 0x3A: s_.a = load(operand_word()); break;
         case 0x3B: t_ += 2; set_sp(count(s_.sp, false)); break; case 0x3C: inr(s_.a); break;
         case 0x3D: dcr(s_.a); break; case 0x3E: s_.a = operand(); break;
