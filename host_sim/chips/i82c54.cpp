@@ -434,7 +434,7 @@ void I82c54::take_count(Counter& c, uint16_t bits) {
         number = 0;
         bool legal = true;
         for (unsigned shift = 16; shift != 0; shift -= 4) {
-            const uint32_t digit = bits >> (shift - 4) & 0xFU;
+            const uint32_t digit = uint32_t{bits} >> (shift - 4) & 0xFU;
             legal = legal && digit <= 9;
             number = number * 10 + digit;
         }
