@@ -78,6 +78,16 @@ TEST(I82c54Mode0, FirstByteOfTwoStopsTheCountAndSetsOutputLow) {
     EXPECT_THAT(edges_until(timer, 1000), ElementsAre(std::pair{60ULL + 0x104 + 1, true}));
 }
 
+TEST(I82c54Mode0, FirstByteOfTwoStopsARunningCount) {
+    I82c54 timer = timer_in_mode(0, kBoth);
+    write_two(timer, 0, 100, 20);
+    timer.write(0, 7, 31);  // loaded at 21, so 90 are left
+    EXPECT_EQ(read_two(timer, 0, 40), 90);
+    EXPECT_EQ(timer.next_event_t(), kNever);
+    timer.write(0, 0, 50);
+    EXPECT_THAT(edges_until(timer, 1000), ElementsAre(std::pair{58ULL, true}));
+}
+
 // -- Mode 1 --------------------------------------------------------------------------------------
 
 TEST(I82c54Mode1, TriggerStartsAPulseOfTheCount) {
