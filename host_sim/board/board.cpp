@@ -109,7 +109,7 @@ RunEnd Board::run_loop(uint64_t until_t) {
             bus_.set_instruction_pc(state.cpu.pc);
             Reference<BoardBus>(state.cpu, bus_).accept(interrupt);
         } else if (state.cpu.halted) {
-            if (idle_for_ever()) return RunEnd::halted;
+            if (stops_here()) return RunEnd::halted;
             state.cpu.t = wake_t(until_t);
         } else {
             run_some<kFast>(until_t);
@@ -151,8 +151,8 @@ bool Board::execute_exactly() {
            !(options_.stop_at_violation && state.violation_count != violations);
 }
 
-bool Board::idle_for_ever() const {
-    return state.event_t == chips::kNever && pins_settled(state.cpu);
+bool Board::stops_here() const {
+    return options_.stop_at_halt && state.cpu.halted && !state.cpu.interrupt_enable;
 }
 
 // HALT ends 1 T at a time: at the next event, or as soon as a fresh pin has been sampled.
@@ -171,7 +171,7 @@ RunEnd Board::step(StepRecord& record, uint64_t until_t) {
     const uint64_t violations = state.violation_count;
     bus_.set_instruction_pc(state.cpu.pc);
     if (held || (state.cpu.halted && interrupt == Interrupt::none)) {
-        if (idle_for_ever()) return RunEnd::halted;
+        if (stops_here()) return RunEnd::halted;
         record = {StepRecord::Kind::halt,
                   state.cpu.pc,
                   state.cpu.sp,

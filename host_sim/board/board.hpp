@@ -20,6 +20,7 @@ struct BoardOptions {
     InstructionSet instruction_set = InstructionSet::all;
     MemoryMap memory_map;
     bool stop_at_violation = false;  ///< end a run behind the instruction that did it
+    bool stop_at_halt = false;       ///< end a run in HALT with interrupts disabled
 };
 
 /// The board and its state. run(), run_reference() and step() agree on every state, bit for bit.
@@ -38,7 +39,7 @@ public:
 
     /// Runs to the first instruction boundary at or after `until_t`. HALT waits for interrupts as
     /// the part does.
-    /// @return halted: in HALT and nothing will ever happen by itself; violation: only if asked for
+    /// @return halted and violation only if the options ask for it
     RunEnd run(uint64_t until_t);
     /// The same on the plain reference interpreter.
     RunEnd run_reference(uint64_t until_t);
@@ -60,7 +61,7 @@ public:
     /// A scan of the range module, from now on.
     void set_range_scan(uint8_t present, const chips::RangeModule::Heights& heights_q1_mm);
     /// Characters that have left the USART since the last call.
-    [[nodiscard]] std::vector<chips::I8251a::TransmittedByte> take_transmitted();
+    std::vector<chips::I8251a::TransmittedByte> take_transmitted();
 
 private:
     template <bool kFast>
@@ -68,7 +69,7 @@ private:
     template <bool kFast>
     void run_some(uint64_t until_t);
     [[nodiscard]] uint64_t wake_t(uint64_t until_t) const;
-    [[nodiscard]] bool idle_for_ever() const;
+    [[nodiscard]] bool stops_here() const;
     bool reset_if_pending();
     bool execute_exactly() override;
     [[nodiscard]] uint64_t run_until_t() const override;
