@@ -168,7 +168,7 @@ void I8251a::take_command(uint8_t value) {
         return;
     }
     const uint8_t changed = command ^ value;
-    command = value & static_cast<uint8_t>(~Command::kErrorReset);
+    command = value;
     if ((value & Command::kErrorReset) != 0) {
         errors = 0;
     }

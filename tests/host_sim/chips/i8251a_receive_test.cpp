@@ -249,4 +249,23 @@ TEST(I8251aReceive, DisabledReceiverHoldsRxReadyLow) {
     EXPECT_EQ(usart.read(kData, 15'000), 0x44);
 }
 
+TEST(I8251aReceive, EnabledWithinACharacterTakesTheNextFallingEdgeForAStartBit) {
+    I8251a usart = ready_usart(kMode8N1x16, Command::kTransmitEnable);
+    usart.line_in(0x0F, 9000, kBitQ8T);
+    usart.write(kControl, kBothWays, 9500);  // in data bit 2
+    usart.advance(15'000);
+    // Data bit 4 is the start bit, then come 0, 0, 0, the stop bit and the idle line.
+    EXPECT_EQ(usart.read(kData, 15'000), 0xF8);
+    EXPECT_EQ(usart.empty_read_count, 0U);
+}
+
+TEST(I8251aReceive, BreakIsNotDetectedAcrossADisabledTime) {
+    I8251a usart = ready_usart();
+    usart.line_break(2000, 10'000);
+    usart.write(kControl, Command::kTransmitEnable, 4000);
+    usart.write(kControl, kBothWays, 4500);
+    usart.advance(9000);
+    EXPECT_EQ(usart.status() & Status::kBreakDetect, 0);
+}
+
 }  // namespace

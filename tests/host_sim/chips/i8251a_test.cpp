@@ -169,6 +169,20 @@ TEST(I8251aTransmit, StoppedClockHoldsAndNewRateContinues) {
     EXPECT_EQ(usart.transmitted[0].end_t, 50'000 + 5 * 2 * kBitT);
 }
 
+TEST(I8251aTransmit, NewClockBeginsWithItsOwnEdge) {
+    I8251a usart = ready_usart();
+    usart.set_clock_period_t(20, 1007);  // the old clock was high
+    usart.write(kData, 0x11, 1010);
+    usart.advance(10'000);
+    ASSERT_EQ(usart.transmitted.size(), 1U);
+    EXPECT_EQ(usart.transmitted[0].start_t, 1007U + 20);
+    EXPECT_EQ(usart.transmitted[0].end_t, 1007U + 20 + 2 * 1600);
+    usart.set_clock_period_t(20, 10'001);  // no change: the edges stay where they are
+    usart.write(kData, 0x11, 10'001);
+    usart.advance(20'000);
+    EXPECT_EQ(usart.transmitted[1].start_t, 10'007U);
+}
+
 // -- Instructions --------------------------------------------------------------------------------
 
 TEST(I8251aInstructions, ThreeZerosAnd40hRecoverFromEveryState) {
@@ -236,6 +250,20 @@ TEST(I8251aInstructions, InternalResetAbortsAndClears) {
     EXPECT_EQ(usart.aborted_frame_count, 1U);
     usart.advance(20'000);
     EXPECT_TRUE(usart.transmitted.empty());
+}
+
+TEST(I8251aInstructions, ResetForgetsFlagsOnTheirWay) {
+    I8251a sending = ready_usart();
+    sending.write(kData, 0x11, 1003);
+    sending.advance(1015);  // left the buffer at 1010, TxRDY due at 1024
+    sending.reset();
+    EXPECT_EQ(sending.status(), Status::kTxReady | Status::kTxEmpty);
+    I8251a receiving = ready_usart();
+    receiving.line_in(0x11, 2000, kBitQ8T);
+    receiving.advance(3540);  // stop bit sampled at 3525, RxRDY due at 3551
+    receiving.reset();
+    receiving.advance(5000);
+    EXPECT_FALSE(receiving.rx_ready_pin());
 }
 
 TEST(I8251aInstructions, ModemPins) {
