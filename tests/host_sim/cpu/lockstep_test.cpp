@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "host_sim/cpu/flat_bus.hpp"
 #include "host_sim/cpu/flat_machine.hpp"
 #include "random_program.hpp"
 #include "scripted_machine.hpp"
