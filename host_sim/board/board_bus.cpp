@@ -162,7 +162,13 @@ void BoardBus::follow_watchdog(uint64_t t) {
 
 // The cycle is over: the bus reads the new contents.
 void BoardBus::follow_eeprom() {
-    s_.eeprom.advance(s_.eeprom.next_event_t());
+    const uint64_t end_t = s_.eeprom.next_event_t();
+    const uint64_t ignored = ignored_bytes(s_.eeprom);
+    s_.eeprom.advance(end_t);
+    if (ignored_bytes(s_.eeprom) != ignored) {  // the beginning of a command, and no more
+        violate(Violation::Kind::eeprom_write, s_.eeprom.last_ignored_address, s_.eeprom.last_value,
+                end_t);
+    }
     const unsigned size = s_.map.eeprom_last + 1U;
     std::copy_n(s_.eeprom.data(), size, s_.memory.bytes.begin());
 }

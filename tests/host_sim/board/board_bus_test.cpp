@@ -201,6 +201,15 @@ TEST_F(BoardBusTest, ProtectedEepromIgnoresAStrayWriteAndReportsIt) {
     EXPECT_EQ(bus.read(0x0123, 50'000), 0xFF);
 }
 
+TEST_F(BoardBusTest, UnfinishedEepromCommandIsReportedWhenItsCycleEnds) {
+    bus.write(0x5555, 0xAA, 50);
+    EXPECT_EQ(state.violation_count, 0U);
+    bus.advance(100'000);
+    EXPECT_EQ(state.violation_count, 1U);
+    EXPECT_EQ(state.last_violation.kind, Violation::Kind::eeprom_write);
+    EXPECT_EQ(state.last_violation.address, 0x5555);
+}
+
 TEST_F(BoardBusTest, UnlockedEepromTakesAByteAndAnswersWithItsComplementMeanwhile) {
     bus.write(0x5555, 0xAA, 50);
     bus.write(0x2AAA, 0x55, 60);
