@@ -17,7 +17,7 @@ struct Machine::RomBus : host_sim::FlatBus {
     explicit RomBus(Machine& owner) : FlatBus{owner.memory}, machine(owner), pc(owner.cpu.pc) {}
 
     void write(uint16_t address, uint8_t value, uint64_t t) const {
-        if (machine.rom_ && machine.rom_->contains(address)) {
+        if (machine.is_rom(address)) {
             machine.note_rom_write({pc, t, address, value});
         } else {
             FlatBus::write(address, value, t);
@@ -30,11 +30,11 @@ void Machine::add_trap(uint16_t address) {
     traps_[address] = true;
 }
 
-void Machine::protect(AddressRange range, bool strict) {
+void Machine::protect(host_sim::AddressRange range, bool strict) {
     rom_ = range;
     strict_ = strict;
-    for (unsigned page = range.low / host_sim::kPageSize; page <= range.high / host_sim::kPageSize;
-         ++page) {
+    for (unsigned page = range.first / host_sim::kPageSize;
+         page <= range.last / host_sim::kPageSize; ++page) {
         memory.page_writable[page] = false;
     }
 }

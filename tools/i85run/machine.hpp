@@ -1,5 +1,5 @@
 // machine.hpp - a processor with 64 KB of memory, a write-protected range and trap addresses.
-// Depends on   host_sim/cpu.
+// Depends on   host_sim/cpu, host_sim/image (AddressRange).
 // Absent       devices, interrupts; ports read FFH, what is written to them is lost.
 // Design note  A trap is a HLT at a listed address. The fast interpreter leaves every HLT to its
 //              host anyway, so traps cost nothing; the HLT itself is never executed nor counted.
@@ -14,18 +14,9 @@
 #include "host_sim/cpu/fast.hpp"
 #include "host_sim/cpu/flat_memory.hpp"
 #include "host_sim/cpu/step_record.hpp"
+#include "host_sim/image/image.hpp"
 
 namespace i85run {
-
-/// An inclusive range of addresses.
-struct AddressRange {
-    uint16_t low = 0;
-    uint16_t high = 0;
-
-    [[nodiscard]] bool contains(uint16_t address) const {
-        return low <= address && address <= high;
-    }
-};
 
 /// A write into the protected range. The memory keeps its byte.
 struct RomWrite {
@@ -54,7 +45,7 @@ public:
 
     /// Protects `range` from writes of the program.
     /// @param strict  run and step stop with rom_write behind an instruction that tried
-    void protect(AddressRange range, bool strict);
+    void protect(host_sim::AddressRange range, bool strict);
 
     [[nodiscard]] uint64_t rom_write_count() const { return rom_write_count_; }
     [[nodiscard]] const std::optional<RomWrite>& first_rom_write() const {
@@ -78,13 +69,16 @@ private:
 
     bool execute_exactly() override;
     [[nodiscard]] uint64_t run_until_t() const override { return until_t_; }
+    [[nodiscard]] bool is_rom(uint16_t address) const {
+        return rom_ && rom_->first <= address && address <= rom_->last;
+    }
     void note_rom_write(const RomWrite& write);
 
     host_sim::InstructionSet set_;
     uint64_t until_t_ = 0;
     std::optional<Stop> stop_;
     std::array<bool, 0x10000> traps_{};
-    std::optional<AddressRange> rom_;
+    std::optional<host_sim::AddressRange> rom_;
     bool strict_ = false;
     bool rom_written_ = false;  ///< by the current instruction
     uint64_t rom_write_count_ = 0;

@@ -28,13 +28,13 @@ std::optional<uint32_t> parse_number(std::string_view text, uint32_t max) {
     return digits(text, 10, max);
 }
 
-std::optional<AddressRange> parse_range(std::string_view text) {
+std::optional<host_sim::AddressRange> parse_range(std::string_view text) {
     const std::size_t colon = text.find(':');
     if (colon == std::string_view::npos) return std::nullopt;
     const auto low = parse_number(text.substr(0, colon), 0xFFFF);
     const auto high = parse_number(text.substr(colon + 1), 0xFFFF);
     if (!low || !high || *low > *high) return std::nullopt;
-    return AddressRange{static_cast<uint16_t>(*low), static_cast<uint16_t>(*high)};
+    return host_sim::AddressRange{static_cast<uint16_t>(*low), static_cast<uint16_t>(*high)};
 }
 
 std::optional<PlaceAndLength> parse_place(std::string_view text) {

@@ -1,5 +1,5 @@
 // number.hpp - addresses, lengths and ranges as people write them on the command line.
-// Depends on   machine.hpp (AddressRange).
+// Depends on   host_sim/image (AddressRange).
 // Syntax       0x8000 and 8000h are hexadecimal, 32768 is decimal. A hexadecimal number with h
 //              begins with a digit (0FFh), so that no symbol is mistaken for one.
 #pragma once
@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "tools/i85run/machine.hpp"
+#include "host_sim/image/image.hpp"
 
 namespace i85run {
 
@@ -16,7 +16,7 @@ namespace i85run {
 [[nodiscard]] std::optional<uint32_t> parse_number(std::string_view text, uint32_t max);
 
 /// "LO:HI", both inclusive, LO not above HI.
-[[nodiscard]] std::optional<AddressRange> parse_range(std::string_view text);
+[[nodiscard]] std::optional<host_sim::AddressRange> parse_range(std::string_view text);
 
 /// Part of a --dump argument: what is before the last colon, and the length behind it.
 struct PlaceAndLength {

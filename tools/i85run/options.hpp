@@ -29,7 +29,7 @@ struct Options {
     std::optional<uint16_t> sp{};
     uint64_t max_t = std::numeric_limits<uint64_t>::max();
     host_sim::InstructionSet instruction_set = host_sim::InstructionSet::all;
-    std::optional<AddressRange> rom{};
+    std::optional<host_sim::AddressRange> rom{};
     bool strict = false;
     std::vector<std::string> dumps{};  ///< SYM, SYM:LEN or ADDR:LEN
     std::string json{};

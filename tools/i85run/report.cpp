@@ -83,7 +83,7 @@ void add_function(std::string& text, const CountedFunction& function) {
 void add_rom_writes(std::string& text, const Results& results) {
     if (!results.rom) return;
     std::string value = fmt::format("{} to {:04X}h-{:04X}h", results.rom_write_count,
-                                    results.rom->low, results.rom->high);
+                                    results.rom->first, results.rom->last);
     if (const auto& first = results.first_rom_write) {
         value += fmt::format("; the first at PC {:04X}h, T {}: {:02X}h to {:04X}h", first->pc,
                              first->t, first->value, first->address);

@@ -35,7 +35,7 @@ struct Results {
     uint64_t t_states = 0;
     std::optional<CountedFunction> function{};
     std::vector<Dump> dumps{};
-    std::optional<AddressRange> rom{};
+    std::optional<host_sim::AddressRange> rom{};
     uint64_t rom_write_count = 0;
     std::optional<RomWrite> first_rom_write{};
 };

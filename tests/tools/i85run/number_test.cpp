@@ -36,8 +36,8 @@ TEST(I85runNumber, EverythingElseIsRefused) {
 TEST(I85runNumber, RangesAreInclusiveAndInOrder) {
     const auto range = parse_range("0:0x7FFF");
     ASSERT_TRUE(range);
-    EXPECT_EQ(range->low, 0);
-    EXPECT_EQ(range->high, 0x7FFF);
+    EXPECT_EQ(range->first, 0);
+    EXPECT_EQ(range->last, 0x7FFF);
     EXPECT_TRUE(parse_range("5:5"));
     for (const char* text : {"", "5", "5:", ":5", "6:5", "0:0x10000", "1:2:3"}) {
         EXPECT_FALSE(parse_range(text)) << "'" << text << "'";
