@@ -2,7 +2,7 @@
 // Depends on   machine.hpp, program.hpp.
 // Design note  The return address is that of a trap, a HLT in memory the image leaves free: the
 //              highest free byte of the ROM half (7FFFh if it is free), which programs for the
-//              board do not write; else the highest free byte of all.
+//              board do not write; where the image fills that half, FFFFh, with the stack below it.
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,14 @@
 #include "tools/i85run/number.hpp"
 
 #include <charconv>
+#include <limits>
 
 namespace i85run {
 namespace {
 
-std::optional<uint32_t> digits(std::string_view text, int base, uint32_t max) {
-    uint32_t value = 0;
+template <class Unsigned>
+std::optional<Unsigned> digits(std::string_view text, int base, Unsigned max) {
+    Unsigned value = 0;
     const char* const end = text.data() + text.size();
     const auto [behind, error] = std::from_chars(text.data(), end, value, base);
     if (error != std::errc{} || behind != end || value > max) return std::nullopt;
@@ -26,6 +28,10 @@ std::optional<uint32_t> parse_number(std::string_view text, uint32_t max) {
         return digits(text.substr(0, text.size() - 1), 16, max);
     }
     return digits(text, 10, max);
+}
+
+std::optional<uint64_t> parse_t_states(std::string_view text) {
+    return digits(text, 10, std::numeric_limits<uint64_t>::max());
 }
 
 std::optional<host_sim::AddressRange> parse_range(std::string_view text) {

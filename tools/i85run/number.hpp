@@ -15,6 +15,9 @@ namespace i85run {
 /// @return nothing when `text` is not a number, or greater than `max`
 [[nodiscard]] std::optional<uint32_t> parse_number(std::string_view text, uint32_t max);
 
+/// A count of T-states: decimal digits and nothing else.
+[[nodiscard]] std::optional<uint64_t> parse_t_states(std::string_view text);
+
 /// "LO:HI", both inclusive, LO not above HI.
 [[nodiscard]] std::optional<host_sim::AddressRange> parse_range(std::string_view text);
 

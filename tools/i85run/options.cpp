@@ -31,7 +31,7 @@ docs/guides/running-programs.md explains every line of the output.)";
 
 /// The texts of the options that are numbers, until they are checked.
 struct NumberTexts {
-    std::string load, sp, rom, cpu = "8085u";
+    std::string load, sp, rom, cpu = "8085u", max_t, trace_from_t, trace_to_t;
 };
 
 void add_run_options(CLI::App& app, Options& options, NumberTexts& texts) {
@@ -44,7 +44,7 @@ void add_run_options(CLI::App& app, Options& options, NumberTexts& texts) {
         ->type_name("SYM|ADDR");
     app.add_option("--sp", texts.sp, "stack pointer (default 0: the stack is below 10000h)")
         ->type_name("ADDR");
-    app.add_option("--max-t", options.max_t, "give up after N T-states (default: never)")
+    app.add_option("--max-t", texts.max_t, "give up after N T-states (default: never)")
         ->type_name("N");
     app.add_option("--cpu", texts.cpu, "8085: stop at undocumented instructions; 8085u: run them")
         ->check(CLI::IsMember({"8085", "8085u"}))
@@ -55,7 +55,7 @@ void add_run_options(CLI::App& app, Options& options, NumberTexts& texts) {
     app.add_option("--symbols", options.symbols, "symbol file")->type_name("FILE");
 }
 
-void add_output_options(CLI::App& app, Options& options) {
+void add_output_options(CLI::App& app, Options& options, NumberTexts& texts) {
     app.add_option("--dump", options.dumps, "print memory after the run; may be repeated")
         ->type_name("SYM|SYM:LEN|ADDR:LEN")
         ->expected(1)
@@ -65,10 +65,10 @@ void add_output_options(CLI::App& app, Options& options) {
     app.add_option("--json", options.json, "write the results for programs")->type_name("FILE");
     auto* const trace =
         app.add_option("--trace", options.trace, "write every instruction")->type_name("FILE");
-    app.add_option("--trace-from", options.trace_from_t, "first T-state of the trace")
+    app.add_option("--trace-from", texts.trace_from_t, "first T-state of the trace")
         ->type_name("T")
         ->needs(trace);
-    app.add_option("--trace-to", options.trace_to_t, "last T-state of the trace")
+    app.add_option("--trace-to", texts.trace_to_t, "last T-state of the trace")
         ->type_name("T")
         ->needs(trace);
     app.add_flag("--profile", options.profile, "print T-states by function");
@@ -88,9 +88,22 @@ std::optional<uint16_t> parse_address(const char* option, const std::string& tex
     return static_cast<uint16_t>(*value);
 }
 
+/// Leaves `t_states` alone when there is no text.
+void parse_t(const char* option, const std::string& text, uint64_t& t_states) {
+    if (text.empty()) return;
+    const auto value = parse_t_states(text);
+    if (!value) {
+        throw CLI::ValidationError(option, text + " is not a number of T-states; write 3072000");
+    }
+    t_states = *value;
+}
+
 void check(Options& options, const NumberTexts& texts) {
     options.load_address = parse_address("--load", texts.load);
     options.sp = parse_address("--sp", texts.sp);
+    parse_t("--max-t", texts.max_t, options.max_t);
+    parse_t("--trace-from", texts.trace_from_t, options.trace_from_t);
+    parse_t("--trace-to", texts.trace_to_t, options.trace_to_t);
     if (!texts.rom.empty()) {
         options.rom = parse_range(texts.rom);
         if (!options.rom) {
@@ -130,7 +143,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
     app.footer(kFooter);
     app.get_formatter()->column_width(34);
     add_run_options(app, options, texts);
-    add_output_options(app, options);
+    add_output_options(app, options, texts);
     try {
         app.parse(argc, argv);
         check(options, texts);

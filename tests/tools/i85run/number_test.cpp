@@ -33,6 +33,14 @@ TEST(I85runNumber, EverythingElseIsRefused) {
     }
 }
 
+TEST(I85runNumber, TStatesAreDecimalUpTo64Bits) {
+    EXPECT_EQ(i85run::parse_t_states("0"), 0u);
+    EXPECT_EQ(i85run::parse_t_states("18446744073709551615"), ~uint64_t{0});
+    for (const char* text : {"", "18446744073709551616", "-1", "0x10", "1e6", "5 "}) {
+        EXPECT_FALSE(i85run::parse_t_states(text)) << "'" << text << "'";
+    }
+}
+
 TEST(I85runNumber, RangesAreInclusiveAndInOrder) {
     const auto range = parse_range("0:0x7FFF");
     ASSERT_TRUE(range);
