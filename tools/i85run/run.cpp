@@ -8,8 +8,8 @@ namespace {
 
 using host_sim::StepRecord;
 
-void show(const RunRequest& request, const StepRecord& record) {
-    for (const auto& observer : request.observers) observer(record);
+void show(const RunRequest& request, const StepRecord& record, const Machine& machine) {
+    for (const Observer& observer : request.observers) observer(record, machine.cpu);
 }
 
 /// The observed counterpart of Machine::run.
@@ -19,7 +19,7 @@ Stop step_until(Machine& machine, const RunRequest& request, uint64_t until_t) {
         if (machine.cpu.t >= until_t && !machine.at_trap()) return Stop::time_limit;
         const uint64_t before = machine.cpu.instructions;
         const Stop stop = machine.step(record);
-        if (machine.cpu.instructions != before) show(request, record);
+        if (machine.cpu.instructions != before) show(request, record, machine);
         if (stop != Stop::time_limit) return stop;
     }
 }
@@ -28,7 +28,7 @@ Stop step_until(Machine& machine, const RunRequest& request, uint64_t until_t) {
 bool serve_trap(Machine& machine, const RunRequest& request) {
     StepRecord record;
     if (!request.serve_trap || !request.serve_trap(machine, record)) return false;
-    show(request, record);
+    show(request, record, machine);
     return true;
 }
 

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "host_sim/cpu/cpu_state.hpp"
 #include "host_sim/cpu/step_record.hpp"
 #include "tools/i85run/machine.hpp"
 
@@ -28,11 +30,16 @@ enum class End : uint8_t {
     return end == End::halt || end == End::returned || end == End::warm_boot;
 }
 
+using Observer =
+    std::function<void(const host_sim::StepRecord& step, const host_sim::CpuState& after)>;
+
+/// What to run for, and who looks on.
 struct RunRequest {
     uint64_t max_t = std::numeric_limits<uint64_t>::max();
 
-    /// Each sees every step in order. With none the machine runs at full speed.
-    std::vector<std::function<void(const host_sim::StepRecord&)>> observers{};
+    /// Each sees every step in order, and the processor behind it. With none the machine runs at
+    /// full speed.
+    std::vector<Observer> observers{};
 
     /// Serves the trap the machine is at, executing one step into the record.
     /// @return false when the program is over

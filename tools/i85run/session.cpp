@@ -11,6 +11,7 @@
 #include "tools/i85run/cpm.hpp"
 #include "tools/i85run/entry.hpp"
 #include "tools/i85run/function_count.hpp"
+#include "tools/i85run/observations.hpp"
 #include "tools/i85run/output_file.hpp"
 #include "tools/i85run/program.hpp"
 #include "tools/i85run/report.hpp"
@@ -104,10 +105,13 @@ int run_session(const Options& options) {
     }
     if (options.rom) machine.protect(*options.rom, options.strict);
     if (results.function) {
-        request.observers.emplace_back([&results](const host_sim::StepRecord& record) {
-            results.function->count.observe(record);
-        });
+        request.observers.emplace_back(
+            [&results](const host_sim::StepRecord& step, const host_sim::CpuState&) {
+                results.function->count.observe(step);
+            });
     }
+    Observations observations(machine, program, options);
+    observations.attach(request);
     std::optional<OutputFile> json;
     if (!options.json.empty()) json.emplace(options.json);
 
@@ -118,7 +122,7 @@ int run_session(const Options& options) {
     results.rom_write_count = machine.rom_write_count();
     results.first_rom_write = machine.first_rom_write();
     results.dumps = read_dumps(machine, places);
-    fmt::print("{}", text_report(results));
+    fmt::print("{}{}", text_report(results), observations.finish());
     if (json) {
         json->stream() << json_report(results);
         json->close();

@@ -21,9 +21,11 @@ protected:
 
     End run() {
         if (GetParam()) {
-            request_.observers.push_back([this](const host_sim::StepRecord& record) {
-                seen_t_ += record.t_end - record.t_begin;
-            });
+            request_.observers.emplace_back(
+                [this](const host_sim::StepRecord& step, const host_sim::CpuState& after) {
+                    seen_t_ += step.t_end - step.t_begin;
+                    EXPECT_EQ(after.pc, step.next_pc);
+                });
         }
         const End end = run_to_end(machine_, request_);
         if (GetParam()) {
