@@ -14,8 +14,8 @@ using host_sim::Pin;
 using host_sim::StepRecord;
 using Kind = StepRecord::Kind;
 
-inline constexpr int kNop = 0x00, kSim = 0x30, kMviA = 0x3E, kHlt = 0x76, kRet = 0xC9, kDi = 0xF3,
-                     kEi = 0xFB, kLxiH = 0x21, kCallOpcode = 0xCD;
+inline constexpr int kNop = 0x00, kInrA = 0x3C, kSim = 0x30, kMviA = 0x3E, kHlt = 0x76, kRet = 0xC9,
+                     kDi = 0xF3, kEi = 0xFB, kLxiH = 0x21, kCallOpcode = 0xCD;
 inline constexpr uint16_t kCode = 0x0100;
 inline constexpr uint16_t kStack = 0x9000;
 inline constexpr uint64_t kBegin = 1000;

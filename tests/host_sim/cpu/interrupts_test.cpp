@@ -76,6 +76,23 @@ TEST(Acceptance, IntrExecutesTheCallThatIntaReads) {
     }
 }
 
+// The data sheet speaks of RST and CALL only. Any other byte is executed as it stands, without
+// moving PC for it; a conditional CALL reads its address from memory.
+TEST(Acceptance, IntrExecutesAnyOtherByteInPlace) {
+    for (const int opcode : {kNop, kInrA, kEi}) {
+        SCOPED_TRACE(opcode);
+        Bench bench;
+        bench.acknowledge_bytes = {static_cast<uint8_t>(opcode)};
+        bench.raise(Pin::intr);
+        EXPECT_EQ(bench.step().kind, Kind::intr);
+        EXPECT_EQ(bench.elapsed(), 4U);
+        EXPECT_EQ(bench.cpu.pc, kCode);
+        EXPECT_EQ(bench.cpu.a, opcode == kInrA ? 1 : 0);
+        EXPECT_EQ(bench.cpu.interrupt_enable, opcode == kEi);
+        EXPECT_EQ(bench.cpu.instructions, 0U);
+    }
+}
+
 // -- Priority ------------------------------------------------------------------------------------
 
 // Data sheet: priority column: of every pair the one further up is taken, the other stays pending.

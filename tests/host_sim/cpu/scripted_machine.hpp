@@ -6,7 +6,6 @@
 //              leave the same machine.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -16,8 +15,6 @@
 #include "host_sim/cpu/fast.hpp"
 #include "host_sim/cpu/flat_memory.hpp"
 #include "host_sim/cpu/interrupts.hpp"
-#include "host_sim/cpu/recording_bus.hpp"
-#include "host_sim/cpu/reference.hpp"
 #include "host_sim/cpu/step_record.hpp"
 
 namespace cpu_test {
@@ -64,45 +61,9 @@ public:
     }
 
     /// One step: an interrupt, one T-state of HALT, or an instruction.
-    host_sim::StepRecord step() {
-        using Kind = host_sim::StepRecord::Kind;
-        deliver(cpu.t);
-        host_sim::StepRecord record;
-        const host_sim::Interrupt interrupt = host_sim::pending_interrupt(cpu);
-        if (interrupt == host_sim::Interrupt::none && cpu.halted) {
-            record.kind = Kind::halt;
-            record.pc = record.next_pc = cpu.pc;
-            record.sp = record.next_sp = cpu.sp;
-            record.t_begin = cpu.t;
-            record.t_end = ++cpu.t;
-        } else {
-            ScriptedBus bus{*this};
-            stopped = !host_sim::step_recorded(cpu, bus, set_, interrupt, record);
-        }
-        return record;
-    }
-
-    void run_stepwise(uint64_t until_t) {
-        while (cpu.t < until_t && !stopped) step();
-    }
-
-    void run_quickly(uint64_t until_t) {
-        until_t_ = until_t;
-        while (cpu.t < until_t && !stopped) {
-            deliver(cpu.t);
-            const host_sim::Interrupt interrupt = host_sim::pending_interrupt(cpu);
-            if (interrupt != host_sim::Interrupt::none) {
-                ScriptedBus bus{*this};
-                host_sim::Reference<ScriptedBus>(cpu, bus, set_).accept(interrupt);
-            } else if (cpu.halted) {
-                ++cpu.t;
-            } else if (host_sim::pins_settled(cpu)) {
-                host_sim::run_fast(cpu, memory, *this, set_);
-            } else {
-                execute_exactly();
-            }
-        }
-    }
+    host_sim::StepRecord step();
+    void run_stepwise(uint64_t until_t);
+    void run_quickly(uint64_t until_t);
 
     /// Everything that both ways of running must agree on.
     [[nodiscard]] bool same(const ScriptedMachine& other) const {
@@ -112,54 +73,11 @@ public:
     }
 
 private:
-    struct ScriptedBus {
-        ScriptedMachine& machine;
+    struct ScriptedBus;
 
-        [[nodiscard]] uint8_t fetch(uint16_t address, uint64_t) const {
-            return machine.memory.bytes[address];
-        }
-        [[nodiscard]] uint8_t operand(uint16_t address, uint64_t) const {
-            return machine.memory.bytes[address];
-        }
-        [[nodiscard]] uint8_t read(uint16_t address, uint64_t) const {
-            return machine.memory.bytes[address];
-        }
-        void write(uint16_t address, uint8_t value, uint64_t) const {
-            if (!machine.rom[address / host_sim::kPageSize]) machine.memory.bytes[address] = value;
-        }
-        // Another value at every T-state, so that a wrong T-state is a wrong accumulator.
-        [[nodiscard]] uint8_t in(uint8_t port, uint64_t t) const {
-            return static_cast<uint8_t>(port * 37U + t * 101U);
-        }
-        void out(uint8_t port, uint8_t value, uint64_t t) const {
-            machine.outputs.push_back({port, value, t});
-        }
-        [[nodiscard]] uint8_t acknowledge(uint64_t) const {
-            return machine
-                .acknowledge_bytes[machine.acknowledged_++ % machine.acknowledge_bytes.size()];
-        }
-        void update_pins(uint64_t t) const { machine.deliver(t); }
-        void serial_out(bool level, uint64_t t) const {
-            machine.outputs.push_back({Output::kSerial, static_cast<uint8_t>(level ? 1 : 0), t});
-        }
-    };
-
-    void deliver(uint64_t t) {
-        for (; next_event_ < events.size() && events[next_event_].t <= t; ++next_event_) {
-            const PinEvent& event = events[next_event_];
-            host_sim::set_pin(cpu, event.pin, event.level, event.t);
-        }
-    }
-    bool execute_exactly() override {
-        ScriptedBus bus{*this};
-        ++exact_instructions;
-        stopped = !host_sim::Reference<ScriptedBus>(cpu, bus, set_).execute();
-        return !stopped && !cpu.halted && host_sim::pins_settled(cpu) &&
-               host_sim::pending_interrupt(cpu) == host_sim::Interrupt::none;
-    }
-    [[nodiscard]] uint64_t run_until_t() const override {
-        return next_event_ < events.size() ? std::min(until_t_, events[next_event_].t) : until_t_;
-    }
+    void deliver(uint64_t t);
+    bool execute_exactly() override;
+    [[nodiscard]] uint64_t run_until_t() const override;
 
     host_sim::InstructionSet set_;
     uint64_t until_t_ = 0;
