@@ -53,7 +53,7 @@ inline Sum ripple_add(unsigned x, unsigned y, bool carry, unsigned width) {
 
 inline bool even_parity(uint8_t value) {
     bool even = true;
-    for (unsigned bit = 0; bit < 8; ++bit) even = even != (((value >> bit) & 1U) != 0);
+    for (unsigned bit = 0; bit < 8; ++bit) even = even != (((unsigned{value} >> bit) & 1U) != 0);
     return even;
 }
 
