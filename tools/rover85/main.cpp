@@ -10,6 +10,7 @@
 #include "host_sim/bind/host_target.hpp"
 #include "tools/rover85/calibrate_command.hpp"
 #include "tools/rover85/command_errors.hpp"
+#include "tools/rover85/debug_command.hpp"
 #include "tools/rover85/import_command.hpp"
 #include "tools/rover85/main_job_command.hpp"
 #include "tools/rover85/recover_command.hpp"
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
     add_calibrate_command(app, exit_code);
     add_import_command(app, exit_code);
     add_report_command(app, exit_code);
+    add_debug_command(app, exit_code);
     add_main_job_command(app, exit_code);
     try {
         app.parse(argc, argv);

@@ -1,0 +1,71 @@
+// commands_test.cpp - the table of commands: names, help, and examples that are understood.
+#include "tools/debug/commands.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+
+#include "tests/tools/debug/bench.hpp"
+
+namespace debug_console {
+namespace {
+
+TEST(Commands, HaveNamesThatDifferAndHelpThatShowsThem) {
+    std::set<std::string_view> names;
+    std::size_t count = 0;
+    for (const Command& command : all_commands()) {
+        EXPECT_TRUE(names.insert(command.name).second) << command.name;
+        if (!command.alias.empty()) {
+            EXPECT_TRUE(names.insert(command.alias).second) << command.alias;
+        }
+        EXPECT_TRUE(command.syntax.starts_with(command.name)) << command.name;
+        EXPECT_FALSE(command.summary.empty()) << command.name;
+        EXPECT_TRUE(command.help.ends_with('\n')) << command.name;
+        EXPECT_NE(fmt::format("\n{}", command.help).find(fmt::format("\n  {}", command.name)),
+                  std::string::npos)
+            << command.name << " has no example";
+        EXPECT_NE(command.run, nullptr);
+        ++count;
+    }
+    EXPECT_EQ(count, run_commands().size() + break_commands().size() + show_commands().size() +
+                         chip_commands().size() + stimulus_commands().size() +
+                         snapshot_commands().size() + script_commands().size());
+}
+
+// Symbols that the examples name.
+constexpr std::string_view kProgram = R"(
+main:     JMP main
+read_adc: RET
+mode      EQU 8000H
+buffer    EQU 8010H
+)";
+
+/// What an example needs before it can be done.
+void prepare(debug_test::Bench& bench) {
+    for (const char* line : {"break 100H", "break 200H", "break 300H", "snapshot before", "step"}) {
+        bench(line);
+    }
+    bench.session.interrupted = [asked = 0]() mutable { return ++asked > 1; };
+}
+
+TEST(Commands, ExamplesInTheHelpAreUnderstood) {
+    unsigned count = 0;
+    for (const Command& command : all_commands()) {
+        std::istringstream help{std::string(command.help)};
+        for (std::string line; std::getline(help, line);) {
+            const std::string start = fmt::format("  {}", command.name);
+            if (!line.starts_with(start) || command.name == "source") continue;
+            debug_test::Bench bench(kProgram);
+            prepare(bench);
+            const std::string output = bench(line);
+            EXPECT_EQ(output.find("refused"), std::string::npos) << line << ": " << output;
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 60u);
+}
+
+}  // namespace
+}  // namespace debug_console
