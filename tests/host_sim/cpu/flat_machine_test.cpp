@@ -155,6 +155,10 @@ TEST(Step, RecordsOneInstruction) {
     EXPECT_EQ(record.opcode(), 0x06);
     EXPECT_EQ(record.access_count, 2);
     EXPECT_EQ(record.t_end, 7U);
+    machine.step(record);  // the same record again, for a NOP
+    EXPECT_EQ(record.access_count, 1);
+    EXPECT_EQ(record.t_begin, 7U);
+    EXPECT_EQ(record.t_end, 11U);
 }
 
 // A machine is plain state: a copy is a snapshot.

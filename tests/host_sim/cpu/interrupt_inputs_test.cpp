@@ -143,6 +143,14 @@ TEST(Rst75, RemembersAShortPulse) {
     EXPECT_EQ(bench.step().kind, Kind::rst75);
 }
 
+// An edge that finds the flip-flop set changes nothing: the request has long been there.
+TEST(Rst75, IsSeenAtOnceWhenTheLatchHasBeenSetForLong) {
+    Bench bench;
+    bench.pulse(Pin::rst75);
+    bench.drive(Pin::rst75, true, kBegin - 1);
+    EXPECT_EQ(bench.step().kind, Kind::rst75);
+}
+
 // Data sheet: "the status of the flip-flop ... is set even though masked"; it is taken when
 // unmasked.
 TEST(Rst75, IsLatchedWhileMaskedAndDisabled) {
