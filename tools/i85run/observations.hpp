@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/trace/call_profile.hpp"
 #include "host_sim/trace/coverage.hpp"
 #include "host_sim/trace/execution_trace.hpp"
-#include "host_sim/trace/profile.hpp"
 #include "tools/i85run/machine.hpp"
 #include "tools/i85run/options.hpp"
 #include "tools/i85run/output_file.hpp"
