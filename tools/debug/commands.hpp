@@ -34,6 +34,8 @@ struct Command {
 [[nodiscard]] std::vector<Command> stimulus_commands();
 /// snapshot, restore, snapshots, diff.
 [[nodiscard]] std::vector<Command> snapshot_commands();
+/// trace, profile, coverage, vcd.
+[[nodiscard]] std::vector<Command> observe_commands();
 /// source, echo, help, quit.
 [[nodiscard]] std::vector<Command> script_commands();
 

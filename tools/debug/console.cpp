@@ -29,6 +29,7 @@ std::string t_states_text(uint8_t opcode) {
 Console::Console(Session& controlled, std::ostream& stream)
     : session(controlled),
       serial([this](std::string_view text) { write(text); }),
+      observers(controlled),
       out_(stream),
       commands_(all_commands()) {
     session.between_slices = [this] { serial.add(session.board.take_transmitted()); };
@@ -65,9 +66,9 @@ void Console::dispatch(const Command& command, Arguments& arguments) {
     if (session.interrupted) session.interrupted();  // a Ctrl-C before this command is not for it
     try {
         command.run(*this, arguments);
-    } catch (const DebugError&) {
+    } catch (const std::runtime_error& error) {  // a file that cannot be written, for example
         serial.flush();
-        throw;
+        throw DebugError(error.what());
     }
 }
 

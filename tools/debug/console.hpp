@@ -17,6 +17,7 @@
 #include "tools/debug/arguments.hpp"
 #include "tools/debug/commands.hpp"
 #include "tools/debug/debug_error.hpp"
+#include "tools/debug/observers.hpp"
 #include "tools/debug/serial_display.hpp"
 #include "tools/debug/session.hpp"
 
@@ -76,6 +77,7 @@ public:
 
     Session& session;
     SerialDisplay serial;
+    Observers observers;
     std::map<std::string, Snapshot> snapshots;
     std::string newest_snapshot;
     std::optional<uint64_t> stimulus_t;  ///< inside `at`: when the stimulus shall act

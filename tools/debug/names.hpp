@@ -31,6 +31,8 @@ public:
     /// Symbols whose name contains `part`, in any case of letters, in the order of addresses.
     [[nodiscard]] std::vector<host_sim::Symbol> containing(std::string_view part) const;
 
+    [[nodiscard]] const host_sim::Symbols& symbols() const { return symbols_; }
+
 private:
     host_sim::Symbols symbols_;
 };

@@ -53,8 +53,9 @@ std::vector<Command> script_commands() {
 
 std::vector<Command> all_commands() {
     std::vector<Command> all;
-    for (const auto group : {run_commands, break_commands, show_commands, chip_commands,
-                             stimulus_commands, snapshot_commands, script_commands}) {
+    for (const auto group :
+         {run_commands, break_commands, show_commands, chip_commands, stimulus_commands,
+          snapshot_commands, observe_commands, script_commands}) {
         for (const Command& command : group()) all.push_back(command);
     }
     return all;

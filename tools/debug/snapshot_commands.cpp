@@ -43,6 +43,9 @@ const Snapshot& take_snapshot(Console& console, Arguments& arguments) {
 
 void restore(Console& console, Arguments& arguments) {
     const Snapshot& wanted = take_snapshot(console, arguments);
+    if (console.observers.vcd_on() && wanted.state.cpu.t < console.session.board.state.cpu.t) {
+        throw DebugError("a VCD file cannot go back in time; `vcd off` ends it first");
+    }
     console.serial.add(console.session.board.take_transmitted());
     console.serial.flush();
     console.session.board.state = wanted.state;

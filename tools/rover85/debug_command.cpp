@@ -95,6 +95,7 @@ int debug(const DebugOptions& options) {
     const InterruptKey key;
     session.interrupted = [] { return InterruptKey::taken(); };
     debug_console::Console console(session, std::cout);
+    console.observers.image = image;
 
     for (const std::string& script : options.scripts) {
         if (!console.finished()) console.source(script);
@@ -104,13 +105,15 @@ int debug(const DebugOptions& options) {
     std::istringstream commands(lines);
     if (!console.finished()) console.run_script(commands, "--command");
     const bool more = options.interactive || (options.scripts.empty() && options.commands.empty());
-    if (!more || console.finished()) return kExitPass;
-    if (isatty(STDIN_FILENO) != 0) {
-        greet(options, image, symbols);
-        console.interact(std::cin);
-    } else {
-        console.run_script(std::cin, "standard input");
+    if (more && !console.finished()) {
+        if (isatty(STDIN_FILENO) != 0) {
+            greet(options, image, symbols);
+            console.interact(std::cin);
+        } else {
+            console.run_script(std::cin, "standard input");
+        }
     }
+    console.observers.close();
     return kExitPass;
 }
 

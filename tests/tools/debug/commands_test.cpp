@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <set>
 #include <sstream>
 
@@ -11,6 +13,26 @@
 
 namespace debug_console {
 namespace {
+
+/// A new current folder, removed with it.
+class InFolder {
+public:
+    InFolder() : before_(std::filesystem::current_path()) {
+        std::string name = (std::filesystem::temp_directory_path() / "debug_XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
+        folder_ = name;
+        std::filesystem::current_path(folder_);
+    }
+    ~InFolder() {
+        std::filesystem::current_path(before_);
+        std::filesystem::remove_all(folder_);
+    }
+    InFolder(const InFolder&) = delete;
+    InFolder& operator=(const InFolder&) = delete;
+
+private:
+    std::filesystem::path before_, folder_;
+};
 
 TEST(Commands, HaveNamesThatDifferAndHelpThatShowsThem) {
     std::set<std::string_view> names;
@@ -31,7 +53,8 @@ TEST(Commands, HaveNamesThatDifferAndHelpThatShowsThem) {
     }
     EXPECT_EQ(count, run_commands().size() + break_commands().size() + show_commands().size() +
                          chip_commands().size() + stimulus_commands().size() +
-                         snapshot_commands().size() + script_commands().size());
+                         snapshot_commands().size() + observe_commands().size() +
+                         script_commands().size());
 }
 
 // Symbols that the examples name.
@@ -44,13 +67,15 @@ buffer    EQU 8010H
 
 /// What an example needs before it can be done.
 void prepare(debug_test::Bench& bench) {
-    for (const char* line : {"break 100H", "break 200H", "break 300H", "snapshot before", "step"}) {
+    for (const char* line : {"break 100H", "break 200H", "break 300H", "snapshot before",
+                             "profile on", "coverage on", "step"}) {
         bench(line);
     }
     bench.session.interrupted = [asked = 0]() mutable { return ++asked > 1; };
 }
 
 TEST(Commands, ExamplesInTheHelpAreUnderstood) {
+    const InFolder folder;  // some of them write files
     unsigned count = 0;
     for (const Command& command : all_commands()) {
         std::istringstream help{std::string(command.help)};
