@@ -318,14 +318,24 @@ TEST(CallProfile, ALoopThatResetsItsStackStaysBounded) {
 }
 
 TEST(CallProfile, AStackAtTheTopOfMemory) {
-    CallProfile profile(&symbols());
+    CallProfile profile(nullptr);
     Steps steps([&](const StepRecord& step) { profile.observe(step); }, 0x0100, 0x0000);
-    steps.call(0x0200);  // main 18; SP 0000H to FFFEH
-    steps.ret(0x0103);   // f 10
-    steps.nop(1);        // main 4
+    steps.call(0x0200);  // 0100H 18; SP 0000H to FFFEH
+    steps.ret(0x0103);   // 0200H 10
+    steps.nop(1);        // 0100H 4
     const auto report = profile.report();
-    EXPECT_EQ(function(report, "f").completed, 1u);
-    EXPECT_EQ(function(report, "main").exclusive_t, 22u);
+    EXPECT_EQ(function(report, "0200H").completed, 1u);
+    EXPECT_EQ(function(report, "0100H").exclusive_t, 22u);
+}
+
+TEST(CallProfile, AHaltAtTheEndOfAFunctionIsNoCallOfTheNext) {
+    Trial run;
+    run.steps.jump(0x01FF);  // main's last byte
+    run.steps.hlt();
+    run.steps.halted(100);
+    const auto report = run.profile.report();
+    ASSERT_EQ(report.functions.size(), 1u);
+    EXPECT_EQ(report.functions[0].name, "main");
 }
 
 TEST(CallProfile, WithoutSymbolsFunctionsAreWhatIsCalled) {
