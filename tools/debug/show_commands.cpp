@@ -60,7 +60,8 @@ void print_value(Console& console, Arguments& arguments) {
         Expression::parse(text, console.session.names).value(console.session.board.state);
     console.print("{}", value);
     if (value >= 0 && value <= 0xFFFF) {
-        const std::string name = console.session.names.near(static_cast<uint16_t>(value));
+        const std::string name =
+            value > 0xFF ? console.session.names.near(static_cast<uint16_t>(value)) : "";
         console.print(" = {}{}{}", intel_hex(static_cast<unsigned>(value), value > 0xFF ? 4 : 2),
                       name.empty() ? "" : " ", name);
     }
