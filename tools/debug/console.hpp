@@ -75,6 +75,10 @@ public:
         report(run(), t, resets);
     }
 
+    /// @param from_t         when the command began
+    /// @param resets_before  of the board then; more of them are told
+    void report(const Stop& stop, uint64_t from_t, uint64_t resets_before);
+
     Session& session;
     SerialDisplay serial;
     Observers observers;
@@ -94,8 +98,6 @@ public:
     void source(const std::string& file);
 
 private:
-    void report(const Stop& stop, uint64_t from_t, uint64_t resets_before);
-
     std::ostream& out_;
     std::vector<Command> commands_;
     bool finished_ = false;

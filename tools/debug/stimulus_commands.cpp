@@ -166,18 +166,16 @@ void service(Console& console, Arguments& arguments) {
 void reset(Console& console, Arguments& arguments) {
     arguments.expect_end();
     if (console.stimulus_t) return schedule(console, Stimulus::Kind::reset_button, 0, 0);
-    console.run_and_report([&] {
-        console.session.reset();
-        return Stop{};
-    });
+    const uint64_t t = console.session.board.state.cpu.t;
+    console.session.reset();
+    console.report({}, t, console.session.board.state.reset_count);
 }
 
 void power(Console& console, Arguments& arguments) {
     arguments.expect_end();
-    console.run_and_report([&] {
-        console.session.power_cycle();
-        return Stop{};
-    });
+    const uint64_t t = console.session.board.state.cpu.t;
+    console.session.power_cycle();
+    console.report({}, t, console.session.board.state.reset_count);
 }
 
 void at(Console& console, Arguments& arguments) {
