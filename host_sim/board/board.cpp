@@ -155,12 +155,11 @@ bool Board::stops_here() const {
     return options_.stop_at_halt && state.cpu.halted && !state.cpu.interrupt_enable;
 }
 
-// HALT ends 1 T at a time: at the next event, or as soon as a fresh pin has been sampled.
+// HALT samples the pins in every T-state: a fresh change is watched T by T, else the next event is
+// the next thing that can happen.
 uint64_t Board::wake_t(uint64_t until_t) const {
-    uint64_t wake = std::min(until_t, state.event_t);
-    const uint64_t sampled_t = state.cpu.pins_changed_t + kSampleLead;
-    if (sampled_t > state.cpu.t) wake = std::min(wake, sampled_t);
-    return wake;
+    if (!pins_settled(state.cpu)) return state.cpu.t + 1;
+    return std::min(until_t, state.event_t);
 }
 
 RunEnd Board::step(StepRecord& record, uint64_t until_t) {

@@ -265,6 +265,7 @@ struct Operations {
                                    s.masks);
     }
     void sim() {
+        bus.update_pins(t - 1);  // an edge that came before is cleared, too
         if ((s.a & 0x08) != 0) s.masks = s.a & mask::kAll;
         if ((s.a & 0x10) != 0) s.rst75_latch = false;
         if ((s.a & 0x40) != 0) {

@@ -172,6 +172,40 @@ TICK:   RET
     EXPECT_EQ(taken[1].t_begin, 512U);
 }
 
+TEST(BoardInterrupt, HaltNoticesAPulseOfOneTState) {
+    Board board;
+    board_test::program(board, assemble_program("LXI SP,TOP\n HLT\n DS 32\n HLT"));
+    board.schedule({1000, Stimulus::Kind::undervoltage, 0, 1});
+    board.schedule({1001, Stimulus::Kind::undervoltage, 0, 0});
+    const auto taken = interrupts(board, 2000);
+    ASSERT_EQ(taken.size(), 1U);
+    EXPECT_EQ(taken[0].kind, StepRecord::Kind::trap);
+    EXPECT_EQ(taken[0].t_begin, 1002U);
+}
+
+// DI ends at 90, DS assembles to NOPs of 4 T. SIM looks at its third T-state, as RIM does.
+uint8_t mask_register_behind(const std::string& delay) {
+    Board board;
+    board_test::program(board,
+                        assemble_program(std::string(kTickStart) + "        DI\n" + delay + R"(
+        SIM
+        RIM
+        STA  8000H
+        HLT
+TICK:   RET
+)"));
+    board.run(2000);
+    return board.state.memory.bytes[0x8000];
+}
+
+TEST(BoardInterrupt, SimClearsAnEdgeThatCameBeforeItLooked) {
+    constexpr uint8_t kPending75 = 0x40;
+    // SIM from 1070 to 1074, the edge at 1072.
+    EXPECT_EQ(mask_register_behind("        DS 245\n") & kPending75, 0);
+    // SIM from 1068 to 1072: the edge comes as it ends.
+    EXPECT_EQ(mask_register_behind("        DS 243\n        INX H\n") & kPending75, kPending75);
+}
+
 TEST(BoardInterrupt, ReceivedCharacterRaisesRst65) {
     Board board;
     board_test::program(board, assemble_program(R"(
