@@ -1,10 +1,9 @@
-// assemble.hpp - a two-pass assembler in Intel syntax, so that tests hold programs and not bytes.
-// Depends on   toolchain/isa (its table is the list of instructions, undocumented ones included).
-// Syntax       [label:] [instruction | directive] [; comment]
-//              ORG n      go on at n, not backwards; the gap is 00
-//              DB  n,'text',...    DW n,...    DS n (n bytes 00)    NAME EQU n    END
-//              n: terms joined by + and -; a term is 10, 0AH, 101B, 'A', $ (address of this line's
-//              first byte) or a symbol. Symbols tell upper from lower case, the rest does not.
+// assemble.hpp - a source in Intel syntax as one program in flat memory, so that tests hold
+// programs
+//              and not bytes.
+// Depends on   toolchain/asm; the syntax is in toolchain/asm/parse.hpp. Sections are put behind
+// each
+//              other, whatever their kind, and what is in none begins at 0000H or ORG.
 #pragma once
 
 #include <cstddef>
