@@ -228,7 +228,7 @@ TEST(Session, AResetEndsAllFrames) {
     bench.session.step(2);
     EXPECT_EQ(bench.session.calls.frames().size(), 1u);
     bench.session.breakpoints.add(at_address(0));
-    EXPECT_EQ(bench.session.run().kind, Stop::Kind::breakpoint);
+    EXPECT_EQ(bench.session.run(2'000'000).kind, Stop::Kind::breakpoint);
     EXPECT_EQ(bench.pc(), 0);
     EXPECT_TRUE(bench.session.calls.frames().empty());
     EXPECT_TRUE(bench.session.calls.backtrace(bench.session.board.state).empty());
