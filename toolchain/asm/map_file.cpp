@@ -42,9 +42,13 @@ void take_code(FunctionSizes& function, const PlacedSection& placed) {
     if (const auto t = straight_t_states(section)) function.t_states = TStates{*t, *t};
     for (const Item& item : section.items) {
         if (const auto t = note_numbers(item, "t")) {
-            function.t_states = TStates{t->front(), t->back()};
+            const TStates known = function.t_states.value_or(TStates{t->front(), t->back()});
+            function.t_states =
+                TStates{std::min(known.least, t->front()), std::max(known.most, t->back())};
         }
-        if (const auto stack = note_numbers(item, "stack")) function.stack_bytes = stack->front();
+        if (const auto stack = note_numbers(item, "stack")) {
+            function.stack_bytes = std::max(function.stack_bytes.value_or(0), stack->front());
+        }
     }
 }
 

@@ -123,7 +123,8 @@ private:
     void define_label(const std::string& symbol) {
         define(symbol);
         labels_[key(symbol)] = {section_, static_cast<int32_t>(size_)};
-        add(label(symbol, LabelKind::automatic, 0, location()));
+        add(label(symbol, noted_ ? LabelKind::function : LabelKind::automatic, 0, location()));
+        noted_ = false;
     }
 
     [[nodiscard]] Value symbol_value(const std::string& symbol) const {
@@ -226,6 +227,7 @@ private:
         } else if (!marker && !rest.empty() && !unit_.empty() &&
                    std::ranges::find(kNotes, word) != kNotes.end()) {
             add(note(word + ' ' + rest, location()));
+            noted_ = true;
         }
     }
 
@@ -373,7 +375,8 @@ private:
     Names names_;
     std::vector<Diagnostic> mistakes_;
     SourceLine line_;
-    std::string unit_;  ///< of unit comments; empty: none yet
+    std::string unit_;    ///< of unit comments; empty: none yet
+    bool noted_ = false;  ///< a unit comment describes the routine that comes next
     uint32_t line_number_ = 0;
     std::size_t section_ = 0;
     std::size_t size_ = 0;    ///< of the current section
