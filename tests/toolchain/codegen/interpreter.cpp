@@ -1,0 +1,272 @@
+// interpreter.cpp - see interpreter.hpp.
+#include "tests/toolchain/codegen/interpreter.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace codegen_test {
+
+using namespace toolchain::codegen;
+
+Interpreter::Interpreter(const Module& module) : module_(module) {
+    uint16_t code = 0x0100;
+    for (const Function& function : module.functions) {
+        addresses_[function.symbol] = code++;
+        for (const FrameObject& object : function.frame) place(object.symbol, object.size);
+    }
+    for (const Variable& variable : module.variables) place(variable.symbol, variable.size);
+    for (const Variable& variable : module.variables) {
+        uint16_t address = addresses_[variable.symbol];
+        for (const Datum& datum : variable.initial) {
+            uint8_t value = datum.value;
+            if (datum.symbol != kNone) {
+                const auto target =
+                    static_cast<uint16_t>(addresses_.at(datum.symbol) + datum.offset);
+                value = static_cast<uint8_t>(datum.high ? target >> 8 : target);
+            }
+            memory[address++] = value;
+        }
+    }
+}
+
+void Interpreter::place(SymbolId symbol, uint32_t size) {
+    addresses_[symbol] = next_;
+    next_ = static_cast<uint16_t>(next_ + size);
+}
+
+uint8_t Interpreter::read(const Frame& frame, uint32_t byte) const {
+    const ByteInfo& info = frame.function.bytes[byte];
+    switch (info.kind) {
+        case ByteInfo::Kind::undefined:
+            return 0xA5;
+        case ByteInfo::Kind::constant:
+            return info.constant;
+        case ByteInfo::Kind::address_low:
+        case ByteInfo::Kind::address_high: {
+            const auto address = static_cast<uint16_t>(addresses_.at(info.symbol) + info.offset);
+            return static_cast<uint8_t>(info.kind == ByteInfo::Kind::address_low ? address
+                                                                                 : address >> 8);
+        }
+        default:
+            return frame.values[byte];
+    }
+}
+
+uint64_t Interpreter::number(const Frame& frame, const Bytes& bytes) const {
+    uint64_t value = 0;
+    for (std::size_t i = bytes.size(); i-- > 0;) value = value << 8 | read(frame, bytes[i]);
+    return value;
+}
+
+int64_t Interpreter::signed_number(const Frame& frame, const Bytes& bytes) const {
+    const unsigned unused = 64 - static_cast<unsigned>(bytes.size()) * 8;
+    return static_cast<int64_t>(number(frame, bytes) << unused) >> unused;
+}
+
+void Interpreter::set(Frame& frame, const Bytes& bytes, uint64_t value) {
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        frame.values[bytes[i]] = static_cast<uint8_t>(i < 8 ? value >> 8 * i : 0);
+    }
+}
+
+bool Interpreter::holds(const Frame& frame, Predicate predicate, const Bytes& left,
+                        const Bytes& right) const {
+    switch (predicate) {
+        case Predicate::equal:
+            return number(frame, left) == number(frame, right);
+        case Predicate::not_equal:
+            return number(frame, left) != number(frame, right);
+        case Predicate::below:
+            return number(frame, left) < number(frame, right);
+        case Predicate::not_below:
+            return number(frame, left) >= number(frame, right);
+        case Predicate::less:
+            return signed_number(frame, left) < signed_number(frame, right);
+        case Predicate::not_less:
+            return signed_number(frame, left) >= signed_number(frame, right);
+    }
+    return false;
+}
+
+std::vector<uint8_t> Interpreter::run(const Function& function,
+                                      const std::vector<uint8_t>& arguments) {
+    Frame frame{function, std::vector<uint8_t>(function.bytes.size())};
+    std::size_t next = 0;
+    for (const ByteId byte : function.blocks[0].parameters)
+        frame.values[byte] = arguments.at(next++);
+    BlockId current = 0;
+    while (true) {
+        const Block& block = function.blocks[current];
+        for (const Operation& operation : block.operations) execute(frame, operation);
+        const Terminator& end = block.terminator;
+        if (end.kind == Terminator::Kind::give_back) {
+            std::vector<uint8_t> result;
+            for (const ByteId byte : end.left) result.push_back(read(frame, byte));
+            return result;
+        }
+        if (end.kind == Terminator::Kind::unreachable)
+            throw std::runtime_error("unreachable reached");
+        const bool first =
+            end.kind == Terminator::Kind::jump || holds(frame, end.predicate, end.left, end.right);
+        const Edge& edge = end.edges[first ? 0 : 1];
+        std::vector<uint8_t> values;
+        for (const ByteId byte : edge.arguments) values.push_back(read(frame, byte));
+        const Bytes& parameters = function.blocks[edge.target].parameters;
+        for (std::size_t i = 0; i < parameters.size(); ++i) frame.values[parameters[i]] = values[i];
+        current = edge.target;
+    }
+}
+
+void Interpreter::execute(Frame& frame, const Operation& operation) {
+    if (++steps > step_limit) throw std::runtime_error("too many steps");
+    const uint64_t left = number(frame, operation.left);
+    const uint64_t right = number(frame, operation.right);
+    switch (operation.opcode) {
+        case Opcode::add:
+            set(frame, operation.results, left + right);
+            break;
+        case Opcode::subtract:
+            set(frame, operation.results, left - right);
+            break;
+        case Opcode::bit_and:
+            set(frame, operation.results, left & right);
+            break;
+        case Opcode::bit_or:
+            set(frame, operation.results, left | right);
+            break;
+        case Opcode::bit_xor:
+            set(frame, operation.results, left ^ right);
+            break;
+        case Opcode::shift_left:
+            set(frame, operation.results, left << operation.immediate);
+            break;
+        case Opcode::shift_right:
+            set(frame, operation.results, left >> operation.immediate);
+            break;
+        case Opcode::shift_right_signed:
+            set(frame, operation.results,
+                static_cast<uint64_t>(signed_number(frame, operation.left) >> operation.immediate));
+            break;
+        case Opcode::sign_fill:
+            set(frame, operation.results, (left & 0x80) != 0 ? 0xFF : 0);
+            break;
+        case Opcode::compare:
+            set(frame, operation.results,
+                holds(frame, operation.predicate, operation.left, operation.right) ? 1 : 0);
+            break;
+        case Opcode::load:
+            for (std::size_t i = 0; i < operation.results.size(); ++i) {
+                frame.values[operation.results[i]] = memory[static_cast<uint16_t>(left + i)];
+            }
+            break;
+        case Opcode::store:
+            for (std::size_t i = 0; i < operation.right.size(); ++i) {
+                memory[static_cast<uint16_t>(left + i)] = read(frame, operation.right[i]);
+            }
+            break;
+        case Opcode::call:
+            call_symbol(frame, operation, operation.symbol);
+            break;
+        case Opcode::call_indirect:
+            for (const auto& [symbol, address] : addresses_) {
+                if (address == left && module_.find(symbol) != nullptr) {
+                    call_symbol(frame, operation, symbol);
+                    return;
+                }
+            }
+            throw std::runtime_error("call through a pointer to no function");
+        default:
+            break;
+    }
+}
+
+void Interpreter::call_symbol(Frame& frame, const Operation& operation, SymbolId symbol) {
+    const Function* callee = module_.find(symbol);
+    if (callee == nullptr) {
+        if (call_runtime(frame, operation, module_.symbols[symbol])) return;
+        throw std::runtime_error("no function " + module_.symbols[symbol]);
+    }
+    std::vector<uint8_t> arguments;
+    for (const Bytes& argument : operation.arguments) {
+        for (const ByteId byte : argument) arguments.push_back(read(frame, byte));
+    }
+    const std::vector<uint8_t> result = run(*callee, arguments);
+    for (std::size_t i = 0; i < result.size(); ++i) frame.values[operation.results[i]] = result[i];
+}
+
+bool Interpreter::call_runtime(Frame& frame, const Operation& operation, const std::string& name) {
+    const auto argument = [&](std::size_t i) { return number(frame, operation.arguments.at(i)); };
+    const auto signed_argument = [&](std::size_t i) {
+        return signed_number(frame, operation.arguments.at(i));
+    };
+    if (name == "__memcpy" || name == "__memmove") {
+        std::vector<uint8_t> bytes;
+        for (uint64_t i = 0; i < argument(2); ++i)
+            bytes.push_back(memory[static_cast<uint16_t>(argument(1) + i)]);
+        for (uint64_t i = 0; i < bytes.size(); ++i)
+            memory[static_cast<uint16_t>(argument(0) + i)] = bytes[i];
+        return true;
+    }
+    if (name == "__memset") {
+        for (uint64_t i = 0; i < argument(2); ++i) {
+            memory[static_cast<uint16_t>(argument(0) + i)] = static_cast<uint8_t>(argument(1));
+        }
+        return true;
+    }
+    const std::size_t size = operation.arguments.at(0).size();
+    const Bytes low(operation.results.begin(),
+                    operation.results.begin() +
+                        static_cast<std::ptrdiff_t>(std::min(size, operation.results.size())));
+    const Bytes high(operation.results.begin() + static_cast<std::ptrdiff_t>(low.size()),
+                     operation.results.end());
+    if (name.starts_with("__mul") || name.starts_with("__umul")) {
+        set(frame, operation.results, argument(0) * argument(1));
+    } else if (name.starts_with("__udiv")) {
+        const uint64_t divisor = argument(1);
+        set(frame, low, divisor == 0 ? 0 : argument(0) / divisor);
+        set(frame, high, divisor == 0 ? 0 : argument(0) % divisor);
+    } else if (name.starts_with("__sdiv")) {
+        const int64_t dividend = signed_argument(0);
+        const int64_t divisor = signed_argument(1);
+        const bool undefined = divisor == 0 || (divisor == -1 && dividend == INT64_MIN);
+        set(frame, low, undefined ? 0 : static_cast<uint64_t>(dividend / divisor));
+        set(frame, high, undefined ? 0 : static_cast<uint64_t>(dividend % divisor));
+    } else if (name.starts_with("__shl")) {
+        set(frame, operation.results, argument(1) > 63 ? 0 : argument(0) << argument(1));
+    } else if (name.starts_with("__lshr")) {
+        set(frame, operation.results, argument(1) > 63 ? 0 : argument(0) >> argument(1));
+    } else if (name.starts_with("__ashr")) {
+        set(frame, operation.results,
+            static_cast<uint64_t>(signed_argument(0) >> std::min<uint64_t>(argument(1), 63)));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+uint64_t Interpreter::call(const std::string& name, const std::vector<uint64_t>& arguments) {
+    const auto symbol = module_.symbol_ids.find(name);
+    const Function* function =
+        symbol == module_.symbol_ids.end() ? nullptr : module_.find(symbol->second);
+    if (function == nullptr) throw std::runtime_error("no function " + name);
+    std::vector<uint8_t> bytes;
+    for (std::size_t i = 0; i < function->parameters.size(); ++i) {
+        for (std::size_t k = 0; k < function->parameters[i].size(); ++k) {
+            bytes.push_back(static_cast<uint8_t>(arguments.at(i) >> 8 * k));
+        }
+    }
+    uint64_t result = 0;
+    const std::vector<uint8_t> returned = run(*function, bytes);
+    for (std::size_t i = returned.size(); i-- > 0;) result = result << 8 | returned[i];
+    return result;
+}
+
+uint64_t Interpreter::variable(const std::string& name, unsigned size) const {
+    const uint16_t address = addresses_.at(module_.symbol_ids.at(name));
+    uint64_t value = 0;
+    for (unsigned i = size; i-- > 0;)
+        value = value << 8 | memory[static_cast<uint16_t>(address + i)];
+    return value;
+}
+
+}  // namespace codegen_test

@@ -1,0 +1,53 @@
+// interpreter.hpp - executes the back end's representation on the host, as the oracle between LLVM
+// IR and machine code. Depends on   toolchain/codegen/mir.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "toolchain/codegen/mir.hpp"
+
+namespace codegen_test {
+
+/// A module with memory. Variables lie from 8000H on, frame objects behind them.
+class Interpreter {
+public:
+    explicit Interpreter(const toolchain::codegen::Module& module);
+
+    /// Calls a function by name; the result as a number. @errors std::runtime_error
+    uint64_t call(const std::string& name, const std::vector<uint64_t>& arguments = {});
+
+    [[nodiscard]] uint64_t variable(const std::string& name, unsigned size) const;
+    std::array<uint8_t, 0x10000> memory{};
+    uint64_t steps = 0;
+    uint64_t step_limit = 200'000'000;
+
+private:
+    using Bytes = toolchain::codegen::Bytes;
+    using Function = toolchain::codegen::Function;
+    using Operation = toolchain::codegen::Operation;
+    struct Frame {
+        const Function& function;
+        std::vector<uint8_t> values;
+    };
+
+    void place(toolchain::codegen::SymbolId symbol, uint32_t size);
+    uint8_t read(const Frame& frame, uint32_t byte) const;
+    uint64_t number(const Frame& frame, const Bytes& bytes) const;
+    int64_t signed_number(const Frame& frame, const Bytes& bytes) const;
+    static void set(Frame& frame, const Bytes& bytes, uint64_t value);
+    std::vector<uint8_t> run(const Function& function, const std::vector<uint8_t>& arguments);
+    void execute(Frame& frame, const Operation& operation);
+    bool holds(const Frame& frame, toolchain::codegen::Predicate predicate, const Bytes& left,
+               const Bytes& right) const;
+    void call_symbol(Frame& frame, const Operation& operation, toolchain::codegen::SymbolId symbol);
+    bool call_runtime(Frame& frame, const Operation& operation, const std::string& name);
+
+    const toolchain::codegen::Module& module_;
+    std::map<toolchain::codegen::SymbolId, uint16_t> addresses_;
+    uint16_t next_ = 0x8000;
+};
+
+}  // namespace codegen_test

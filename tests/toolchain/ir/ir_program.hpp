@@ -1,0 +1,49 @@
+// ir_program.hpp - LLVM IR as text, brought to the back end's representation and executed there.
+// Depends on   toolchain/ir, tests/toolchain/codegen/interpreter.hpp.
+#pragma once
+
+#include <llvm/ADT/APInt.h>
+#include <llvm/AsmParser/Parser.h>
+#include <llvm/IR/LLVMContext.h>
+#include <llvm/IR/Module.h>
+#include <llvm/Support/SourceMgr.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "tests/toolchain/codegen/interpreter.hpp"
+#include "toolchain/codegen/mir.hpp"
+#include "toolchain/ir/prepare.hpp"
+#include "toolchain/ir/select.hpp"
+
+namespace ir_test {
+
+/// Data layout of the front end's target with packed structs in mind: 16-bit pointers.
+inline constexpr const char* kHead =
+    "target datalayout = \"e-m:e-p:16:16-i32:16-i64:16-f32:16-f64:16-a:8-n8:16-S16\"\n"
+    "target triple = \"msp430-unknown-none-elf\"\n";
+
+/// Verified functions of a prepared module.
+inline toolchain::codegen::Module to_mir(llvm::Module& module) {
+    toolchain::ir::prepare(module);
+    toolchain::codegen::Module mir = toolchain::ir::select(module);
+    for (const toolchain::codegen::Function& function : mir.functions) {
+        const std::string problem = verify(function);
+        if (!problem.empty()) {
+            throw std::runtime_error(mir.symbols[function.symbol] + ": " + problem);
+        }
+    }
+    return mir;
+}
+
+inline toolchain::codegen::Module to_mir(const std::string& text) {
+    llvm::LLVMContext context;
+    llvm::SMDiagnostic problem;
+    const std::unique_ptr<llvm::Module> module =
+        llvm::parseAssemblyString(kHead + text, problem, context);
+    if (!module) throw std::runtime_error(problem.getMessage().str());
+    return to_mir(*module);
+}
+
+}  // namespace ir_test

@@ -1,0 +1,282 @@
+// Every integer operation, width and corner value, with operands at run time and as constants;
+// expected values from LLVM's APInt.
+#include "toolchain/ir/select.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/toolchain/ir/ir_program.hpp"
+
+namespace {
+
+using codegen_test::Interpreter;
+using ir_test::to_mir;
+using llvm::APInt;
+
+const std::vector<unsigned> kWidths = {1, 3, 8, 9, 16, 24, 31, 32, 33, 64};
+
+/// 0, 1, 2, the largest, the halves of the range, alternating bits, single bits.
+std::vector<APInt> corners(unsigned bits) {
+    std::vector<APInt> values = {APInt(bits, 0), APInt(bits, 1), APInt::getMaxValue(bits),
+                                 APInt::getSignedMaxValue(bits), APInt::getSignedMinValue(bits)};
+    for (const uint64_t pattern :
+         {0x5555555555555555ULL, 0xAAAAAAAAAAAAAAAAULL, 0x00FF00FF00FF00FFULL,
+          0x0123456789ABCDEFULL, 0x81ULL, 0x100ULL, 0x7F80ULL, 0xFFFF0000ULL}) {
+        values.push_back(APInt(64, pattern).zextOrTrunc(bits));
+    }
+    return values;
+}
+
+bool is_defined(const std::string& operation, const APInt& left, const APInt& right) {
+    const bool divides = operation.ends_with("div") || operation.ends_with("rem");
+    if (divides && right.isZero()) return false;
+    if ((operation == "sdiv" || operation == "srem") && left.isMinSignedValue() &&
+        right.isAllOnes()) {
+        return false;
+    }
+    const bool shifts = operation == "shl" || operation == "lshr" || operation == "ashr";
+    return !shifts || right.ult(left.getBitWidth());
+}
+
+APInt expected(const std::string& operation, const APInt& left, const APInt& right) {
+    if (operation == "add") return left + right;
+    if (operation == "sub") return left - right;
+    if (operation == "mul") return left * right;
+    if (operation == "and") return left & right;
+    if (operation == "or") return left | right;
+    if (operation == "xor") return left ^ right;
+    if (operation == "udiv") return left.udiv(right);
+    if (operation == "urem") return left.urem(right);
+    if (operation == "sdiv") return left.sdiv(right);
+    if (operation == "srem") return left.srem(right);
+    if (operation == "shl") return left.shl(right);
+    if (operation == "lshr") return left.lshr(right);
+    return left.ashr(right);
+}
+
+class SelectBinary : public testing::TestWithParam<std::string> {};
+
+TEST_P(SelectBinary, AgreesForEveryWidthAndCorner) {
+    const std::string& operation = GetParam();
+    std::set<std::string> functions;  // equal corners of narrow widths make equal functions
+    for (const unsigned bits : kWidths) {
+        functions.insert(
+            fmt::format("define i{0} @v{0}(i{0} %a, i{0} %b) {{\n %r = {1} i{0} %a, %b\n "
+                        "ret i{0} %r\n}}\n",
+                        bits, operation));
+        for (const APInt& right : corners(bits)) {
+            if (!is_defined(operation, APInt(bits, 0), right)) continue;
+            functions.insert(
+                fmt::format("define i{0} @c{0}_{1}(i{0} %a) {{\n %r = {2} i{0} %a, {3}\n "
+                            "ret i{0} %r\n}}\n",
+                            bits, right.getZExtValue(), operation, right.getSExtValue()));
+        }
+    }
+    const auto mir = to_mir(fmt::format("{}", fmt::join(functions, "")));
+    Interpreter interpreter(mir);
+    for (const unsigned bits : kWidths) {
+        for (const APInt& left : corners(bits)) {
+            for (const APInt& right : corners(bits)) {
+                if (!is_defined(operation, left, right)) continue;
+                const uint64_t wanted = expected(operation, left, right).getZExtValue();
+                const uint64_t a = left.getZExtValue();
+                const uint64_t b = right.getZExtValue();
+                ASSERT_EQ(interpreter.call(fmt::format("v{}", bits), {a, b}), wanted)
+                    << operation << " i" << bits << " " << a << ", " << b;
+                ASSERT_EQ(interpreter.call(fmt::format("c{}_{}", bits, b), {a}), wanted)
+                    << operation << " i" << bits << " " << a << ", constant " << b;
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Operations, SelectBinary,
+                         testing::Values("add", "sub", "mul", "and", "or", "xor", "udiv", "urem",
+                                         "sdiv", "srem", "shl", "lshr", "ashr"),
+                         [](const auto& test) { return test.param; });
+
+TEST(Select, ComparisonsAgree) {
+    const std::vector<std::pair<std::string, bool (*)(const APInt&, const APInt&)>> predicates = {
+        {"eq", [](const APInt& a, const APInt& b) { return a == b; }},
+        {"ne", [](const APInt& a, const APInt& b) { return a != b; }},
+        {"ult", [](const APInt& a, const APInt& b) { return a.ult(b); }},
+        {"ule", [](const APInt& a, const APInt& b) { return a.ule(b); }},
+        {"ugt", [](const APInt& a, const APInt& b) { return a.ugt(b); }},
+        {"uge", [](const APInt& a, const APInt& b) { return a.uge(b); }},
+        {"slt", [](const APInt& a, const APInt& b) { return a.slt(b); }},
+        {"sle", [](const APInt& a, const APInt& b) { return a.sle(b); }},
+        {"sgt", [](const APInt& a, const APInt& b) { return a.sgt(b); }},
+        {"sge", [](const APInt& a, const APInt& b) { return a.sge(b); }}};
+    std::string text;
+    for (const auto& [name, holds] : predicates) {
+        for (const unsigned bits : kWidths) {
+            text += fmt::format(
+                "define i1 @{1}{0}(i{0} %a, i{0} %b) {{\n %r = icmp {1} i{0} %a, %b\n ret i1 "
+                "%r\n}}\n"
+                "define i8 @b{1}{0}(i{0} %a, i{0} %b) {{\n %r = icmp {1} i{0} %a, %b\n"
+                " br i1 %r, label %y, label %n\ny:\n ret i8 7\nn:\n ret i8 9\n}}\n",
+                bits, name);
+        }
+    }
+    const auto mir = to_mir(text);
+    Interpreter interpreter(mir);
+    for (const auto& [name, holds] : predicates) {
+        for (const unsigned bits : kWidths) {
+            for (const APInt& left : corners(bits)) {
+                for (const APInt& right : corners(bits)) {
+                    const std::vector<uint64_t> operands = {left.getZExtValue(),
+                                                            right.getZExtValue()};
+                    const bool wanted = holds(left, right);
+                    const std::string function = fmt::format("{}{}", name, bits);
+                    ASSERT_EQ(interpreter.call(function, operands), wanted ? 1U : 0U) << function;
+                    ASSERT_EQ(interpreter.call("b" + function, operands), wanted ? 7U : 9U);
+                }
+            }
+        }
+    }
+}
+
+TEST(Select, CastsAgree) {
+    std::string text;
+    for (const unsigned from : kWidths) {
+        for (const unsigned to : kWidths) {
+            if (from == to) continue;
+            for (const char* cast : {"trunc", "zext", "sext"}) {
+                if ((to < from) != (std::string(cast) == "trunc")) continue;
+                text += fmt::format(
+                    "define i{1} @{2}{0}_{1}(i{0} %a) {{\n %r = {2} i{0} %a to i{1}\n"
+                    " ret i{1} %r\n}}\n",
+                    from, to, cast);
+            }
+        }
+    }
+    const auto mir = to_mir(text);
+    Interpreter interpreter(mir);
+    for (const unsigned from : kWidths) {
+        for (const unsigned to : kWidths) {
+            for (const APInt& value : corners(from)) {
+                const std::vector<uint64_t> operand = {value.getZExtValue()};
+                if (to < from) {
+                    ASSERT_EQ(interpreter.call(fmt::format("trunc{}_{}", from, to), operand),
+                              value.trunc(to).getZExtValue());
+                } else if (to > from) {
+                    ASSERT_EQ(interpreter.call(fmt::format("zext{}_{}", from, to), operand),
+                              value.zext(to).getZExtValue());
+                    ASSERT_EQ(interpreter.call(fmt::format("sext{}_{}", from, to), operand),
+                              value.sext(to).getZExtValue());
+                }
+            }
+        }
+    }
+}
+
+TEST(Select, AddressesScaleIndicesOfEverySize) {
+    const auto mir = to_mir(R"(
+%pair = type <{ i8, i16, [5 x i8] }>
+@table = global [4 x %pair] zeroinitializer
+define void @fill(i8 %i, i16 %j) {
+  %p = getelementptr [4 x %pair], ptr @table, i16 0, i8 %i, i32 2, i16 %j
+  store i8 77, ptr %p
+  ret void
+}
+define i8 @fetch() {
+  %p = getelementptr %pair, ptr @table, i16 3, i32 2, i16 4
+  %r = load i8, ptr %p
+  ret i8 %r
+})");
+    Interpreter interpreter(mir);
+    interpreter.call("fill", {3, 4});
+    EXPECT_EQ(interpreter.call("fetch"), 77U);
+    interpreter.call("fill", {0, 0xFFFD});  // -3: the pair's first byte
+    EXPECT_EQ(interpreter.variable("table", 1), 77U);
+}
+
+TEST(Select, InitialDataHoldsNumbersAddressesAndPadding) {
+    const auto mir = to_mir(R"(
+@text = constant [3 x i8] c"ab\00"
+@data = global { i8, i16, ptr, [2 x i8] } { i8 1, i16 515, ptr getelementptr (i8, ptr @text, i16 1), [2 x i8] c"xy" }
+define i8 @second() {
+  %p = getelementptr { i8, i16, ptr, [2 x i8] }, ptr @data, i16 0, i32 2
+  %q = load ptr, ptr %p
+  %r = load i8, ptr %q
+  ret i8 %r
+})");
+    Interpreter interpreter(mir);
+    EXPECT_EQ(interpreter.call("second"), 'b');
+    EXPECT_EQ(interpreter.variable("data", 4), 0x02030001U);  // i16 on an even offset
+}
+
+TEST(Select, CallsDirectAndThroughPointers) {
+    const auto mir = to_mir(R"(
+define i32 @add(i32 %a, i16 %b) {
+  %w = zext i16 %b to i32
+  %r = add i32 %a, %w
+  ret i32 %r
+}
+define i32 @through(ptr %f, i32 %a, i16 %b) {
+  %r = call i32 %f(i32 %a, i16 %b)
+  ret i32 %r
+}
+define i32 @main(i32 %a, i16 %b) {
+  %r = call i32 @through(ptr @add, i32 %a, i16 %b)
+  ret i32 %r
+})");
+    Interpreter interpreter(mir);
+    EXPECT_EQ(interpreter.call("main", {0x1FFFF, 2}), 0x20001U);
+}
+
+TEST(Select, ProcessorInstructionsAreOperations) {
+    const auto mir = to_mir(R"(
+declare i8 @__i85_in(i8)
+declare void @__i85_out(i8, i8)
+declare void @__i85_ei()
+define void @f() {
+  %x = call i8 @__i85_in(i8 9)
+  call void @__i85_out(i8 8, i8 %x)
+  call void @__i85_ei()
+  ret void
+})");
+    EXPECT_EQ(print(mir, mir.functions[0]),
+              "function f\n  0[]:\n    [b0] = port_in #9\n    port_out [b0] #8\n    ei\n"
+              "    return []\n");
+}
+
+/// The message for a function with the given body.
+std::string refusal(const std::string& text) {
+    try {
+        static_cast<void>(to_mir(text));
+    } catch (const toolchain::ir::Refused& refused) {
+        return refused.what();
+    }
+    return "accepted";
+}
+
+TEST(Select, RefusesWithReason) {
+    EXPECT_NE(refusal("define float @f(float %a) {\n %r = fadd float %a, %a\n ret float %r\n}")
+                  .find("no floating point"),
+              std::string::npos);
+    EXPECT_NE(
+        refusal(
+            "define void @f(i16 %n) {\n %p = alloca i8, i16 %n\n store i8 0, ptr %p\n ret void\n}")
+            .find("known only at run time"),
+        std::string::npos);
+    EXPECT_NE(
+        refusal("declare void @g(...)\ndefine void @f() {\n call void (...) @g()\n ret void\n}")
+            .find("variable number of arguments"),
+        std::string::npos);
+    EXPECT_NE(refusal("declare i8 @__i85_in(i8)\ndefine i8 @f(i8 %p) {\n %r = call i8 @__i85_in(i8 "
+                      "%p)\n ret i8 %r\n}")
+                  .find("known at compile time"),
+              std::string::npos);
+    EXPECT_NE(refusal("define void @f() {\n call void asm sideeffect \"nop\", \"\"()\n ret void\n}")
+                  .find("inline assembly"),
+              std::string::npos);
+}
+
+}  // namespace

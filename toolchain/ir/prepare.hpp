@@ -1,0 +1,24 @@
+// prepare.hpp - brings LLVM IR into the subset that select() knows.
+// Depends on   libLLVM 19.
+// Removes      switch, select, minimum and maximum, saturating and checked arithmetic, funnel
+// shifts, bit
+//              counting, byte swaps; memory intrinsics become calls of the runtime.
+#pragma once
+
+#include <cstdint>
+
+namespace llvm {
+class Module;
+}
+
+namespace toolchain::ir {
+
+enum class Optimisation : uint8_t { none, less, more, size };
+
+/// LLVM's own pipeline for that level, without vectors and unrolling.
+void optimise(llvm::Module& module, Optimisation level);
+
+/// Replaces what select() does not know.
+void prepare(llvm::Module& module);
+
+}  // namespace toolchain::ir

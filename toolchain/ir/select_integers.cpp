@@ -1,0 +1,248 @@
+// select_integers.cpp - arithmetic, shifts, casts, comparisons, addresses. An integer of an odd
+// width keeps zeros in the bits above it. Depends on   selector.hpp.
+#include <fmt/format.h>
+#include <llvm/IR/DataLayout.h>
+#include <llvm/IR/GetElementPtrTypeIterator.h>
+
+#include <bit>
+
+#include "toolchain/ir/selector.hpp"
+
+namespace toolchain::ir {
+
+using codegen::Bytes;
+using codegen::Opcode;
+using codegen::Predicate;
+
+namespace {
+
+unsigned bits_of(const llvm::Value& value) {
+    return value.getType()->getIntegerBitWidth();
+}
+
+}  // namespace
+
+Bytes Selector::select_binary(const llvm::BinaryOperator& operation) {
+    using Instruction = llvm::Instruction;
+    const unsigned bits = bits_of(operation);
+    const auto left = [&] { return value(operation.getOperand(0)); };
+    const auto right = [&] { return value(operation.getOperand(1)); };
+    switch (operation.getOpcode()) {
+        case Instruction::Add:
+            return masked(builder_.add(left(), right()), bits);
+        case Instruction::Sub:
+            return masked(builder_.subtract(left(), right()), bits);
+        case Instruction::And:
+            return builder_.bitwise(Opcode::bit_and, left(), right());
+        case Instruction::Or:
+            return builder_.bitwise(Opcode::bit_or, left(), right());
+        case Instruction::Xor:
+            return builder_.bitwise(Opcode::bit_xor, left(), right());
+        case Instruction::Mul:
+            return masked(select_multiply(operation), bits);
+        case Instruction::Shl:
+        case Instruction::LShr:
+        case Instruction::AShr:
+            return masked(select_shift(operation), bits);
+        case Instruction::UDiv:
+        case Instruction::URem:
+        case Instruction::SDiv:
+        case Instruction::SRem:
+            return masked(select_divide(operation), bits);
+        default:
+            break;
+    }
+    refuse(operation, fmt::format("'{}': the 8085 has no floating point; use a Q format",
+                                  operation.getOpcodeName()));
+}
+
+// Shifts and additions while they are cheaper than a call: few one bits.
+Bytes Selector::multiply_by_constant(const Bytes& value, uint64_t factor) {
+    Bytes sum = builder_.constant(0, value.size());
+    for (unsigned bit = 0; bit < 64; ++bit) {
+        if ((factor >> bit & 1) != 0) sum = builder_.add(builder_.shift_left(value, bit), sum);
+    }
+    return sum;
+}
+
+Bytes Selector::select_multiply(const llvm::BinaryOperator& operation) {
+    constexpr int kFewBits = 2;
+    Bytes left = value(operation.getOperand(0));
+    Bytes right = value(operation.getOperand(1));
+    if (builder_.value_of(left)) std::swap(left, right);
+    if (const auto factor = builder_.value_of(right)) {
+        if (std::popcount(*factor) <= kFewBits) return multiply_by_constant(left, *factor);
+        const Bytes negative = builder_.subtract(builder_.constant(0, right.size()), right);
+        const auto opposite = builder_.value_of(negative);
+        if (opposite && std::popcount(*opposite) <= 1) {
+            return builder_.subtract(builder_.constant(0, left.size()),
+                                     multiply_by_constant(left, *opposite));
+        }
+    }
+    const std::size_t size = left.size();
+    const std::size_t left_size = size - builder_.leading_zero_bytes(left);
+    const std::size_t right_size = size - builder_.leading_zero_bytes(right);
+    if (size <= 4 && left_size <= 1 && right_size <= 1 && size > 1) {
+        left.resize(1);
+        right.resize(1);
+        return builder_.zero_extended(runtime("__mul8", {left, right}, 2), size);
+    }
+    if (size == 4 && left_size <= 2 && right_size <= 2) {
+        left.resize(2);
+        right.resize(2);
+        return runtime("__umul16w", {left, right}, 4);
+    }
+    if (size == 1) {
+        Bytes product = runtime("__mul8", {left, right}, 2);
+        product.resize(1);
+        return product;
+    }
+    const std::size_t wide = std::bit_ceil(size);
+    Bytes product =
+        runtime(wide == 2   ? "__mul16"
+                : wide == 4 ? "__mul32"
+                            : "__mul64",
+                {builder_.zero_extended(left, wide), builder_.zero_extended(right, wide)}, wide);
+    product.resize(size);
+    return product;
+}
+
+Bytes Selector::select_divide(const llvm::BinaryOperator& operation) {
+    using Instruction = llvm::Instruction;
+    const auto opcode = operation.getOpcode();
+    const bool is_signed = opcode == Instruction::SDiv || opcode == Instruction::SRem;
+    const bool remainder = opcode == Instruction::URem || opcode == Instruction::SRem;
+    const unsigned bits = bits_of(operation);
+    const std::size_t size = (bits + 7) / 8;
+    const std::size_t wide = std::bit_ceil(size);
+    const auto operand = [&](unsigned index) {
+        const Bytes bytes = value(operation.getOperand(index));
+        return is_signed ? sign_from(bytes, bits, wide) : builder_.zero_extended(bytes, wide);
+    };
+    Bytes result = runtime(fmt::format("__{}div{}", is_signed ? "s" : "u", wide * 8),
+                           {operand(0), operand(1)}, 2 * wide);
+    const auto middle = result.begin() + static_cast<std::ptrdiff_t>(wide);
+    Bytes half = remainder ? Bytes(middle, result.end()) : Bytes(result.begin(), middle);
+    half.resize(size);
+    return half;
+}
+
+Bytes Selector::select_shift(const llvm::BinaryOperator& operation) {
+    using Instruction = llvm::Instruction;
+    const auto opcode = operation.getOpcode();
+    const unsigned bits = bits_of(operation);
+    const Bytes count = value(operation.getOperand(1));
+    Bytes shifted = value(operation.getOperand(0));
+    if (opcode == Instruction::AShr) shifted = sign_from(shifted, bits, shifted.size());
+    if (const auto number = builder_.value_of(count)) {
+        const auto amount = static_cast<unsigned>(std::min<uint64_t>(*number, bits));
+        if (opcode == Instruction::Shl) return builder_.shift_left(shifted, amount);
+        if (opcode == Instruction::LShr) return builder_.shift_right(shifted, amount);
+        return builder_.shift_right_signed(shifted, amount);
+    }
+    const std::size_t wide = std::bit_ceil(shifted.size());
+    const char* name = opcode == Instruction::Shl    ? "shl"
+                       : opcode == Instruction::LShr ? "lshr"
+                                                     : "ashr";
+    const std::size_t size = shifted.size();
+    shifted = opcode == Instruction::AShr ? builder_.sign_extended(shifted, wide)
+                                          : builder_.zero_extended(shifted, wide);
+    Bytes result = runtime(fmt::format("__{}{}", name, wide * 8), {shifted, {count[0]}}, wide);
+    result.resize(size);
+    return result;
+}
+
+Bytes Selector::select_cast(const llvm::CastInst& cast) {
+    const Bytes bytes = value(cast.getOperand(0));
+    const std::size_t size = size_of(cast.getType());
+    switch (cast.getOpcode()) {
+        case llvm::Instruction::ZExt:
+        case llvm::Instruction::PtrToInt:
+        case llvm::Instruction::IntToPtr:
+        case llvm::Instruction::BitCast:
+            return builder_.zero_extended(bytes, size);
+        case llvm::Instruction::Trunc:
+            return masked(builder_.zero_extended(bytes, size), bits_of(cast));
+        case llvm::Instruction::SExt:
+            return masked(sign_from(bytes, bits_of(*cast.getOperand(0)), size), bits_of(cast));
+        default:
+            break;
+    }
+    refuse(cast, fmt::format("'{}': the 8085 has no floating point; use a Q format",
+                             cast.getOpcodeName()));
+}
+
+Selector::Comparison Selector::comparison(const llvm::ICmpInst& compare) {
+    using Wanted = llvm::CmpInst::Predicate;
+    const bool is_signed = compare.isSigned();
+    const auto operand = [&](unsigned index) {
+        const llvm::Value* which = compare.getOperand(index);
+        return is_signed ? signed_value(which) : value(which);
+    };
+    const Bytes left = operand(0);
+    const Bytes right = operand(1);
+    switch (compare.getPredicate()) {
+        case Wanted::ICMP_EQ:
+            return {Predicate::equal, left, right};
+        case Wanted::ICMP_NE:
+            return {Predicate::not_equal, left, right};
+        case Wanted::ICMP_ULT:
+            return {Predicate::below, left, right};
+        case Wanted::ICMP_UGE:
+            return {Predicate::not_below, left, right};
+        case Wanted::ICMP_UGT:
+            return {Predicate::below, right, left};
+        case Wanted::ICMP_ULE:
+            return {Predicate::not_below, right, left};
+        case Wanted::ICMP_SLT:
+            return {Predicate::less, left, right};
+        case Wanted::ICMP_SGE:
+            return {Predicate::not_less, left, right};
+        case Wanted::ICMP_SGT:
+            return {Predicate::less, right, left};
+        case Wanted::ICMP_SLE:
+            return {Predicate::not_less, right, left};
+        default:
+            break;
+    }
+    refuse(compare, "comparison not supported");
+}
+
+Bytes Selector::select_compare(const llvm::ICmpInst& compare) {
+    const Comparison wanted = comparison(compare);
+    return {builder_.compare(wanted.predicate, wanted.left, wanted.right)};
+}
+
+Bytes Selector::select_address(const llvm::GetElementPtrInst& address) {
+    constexpr std::size_t kPointerSize = 2;
+    Bytes sum = value(address.getPointerOperand());
+    int64_t fixed = 0;
+    for (auto index = llvm::gep_type_begin(address); index != llvm::gep_type_end(address);
+         ++index) {
+        const llvm::Value* operand = index.getOperand();
+        if (auto* structure = index.getStructTypeOrNull()) {
+            const auto field = llvm::cast<llvm::ConstantInt>(operand)->getZExtValue();
+            fixed += static_cast<int64_t>(layout_.getStructLayout(structure)
+                                              ->getElementOffset(static_cast<unsigned>(field))
+                                              .getFixedValue());
+            continue;
+        }
+        const auto stride =
+            static_cast<uint64_t>(index.getSequentialElementStride(layout_).getFixedValue());
+        if (const auto* number = llvm::dyn_cast<llvm::ConstantInt>(operand)) {
+            fixed += number->getSExtValue() * static_cast<int64_t>(stride);
+            continue;
+        }
+        Bytes scaled = sign_from(value(operand), bits_of(*operand), kPointerSize);
+        if (std::popcount(stride) <= 2) {
+            scaled = multiply_by_constant(scaled, stride);
+        } else {
+            scaled =
+                runtime("__mul16", {scaled, builder_.constant(stride, kPointerSize)}, kPointerSize);
+        }
+        sum = builder_.add(sum, scaled);
+    }
+    return builder_.add(sum, builder_.constant(static_cast<uint64_t>(fixed), kPointerSize));
+}
+
+}  // namespace toolchain::ir
