@@ -200,7 +200,8 @@ define i8 @fetch() {
 TEST(Select, InitialDataHoldsNumbersAddressesAndPadding) {
     const auto mir = to_mir(R"(
 @text = constant [3 x i8] c"ab\00"
-@data = global { i8, i16, ptr, [2 x i8] } { i8 1, i16 515, ptr getelementptr (i8, ptr @text, i16 1), [2 x i8] c"xy" }
+@data = global { i8, i16, ptr, [2 x i8] } { i8 1, i16 515,
+  ptr getelementptr (i8, ptr @text, i16 1), [2 x i8] c"xy" }
 define i8 @second() {
   %p = getelementptr { i8, i16, ptr, [2 x i8] }, ptr @data, i16 0, i32 2
   %q = load ptr, ptr %p
