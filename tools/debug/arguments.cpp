@@ -154,7 +154,9 @@ std::optional<std::string> Arguments::take_quoted() {
 }
 
 void Arguments::expect_end() const {
-    if (!empty()) throw DebugError(fmt::format("{}: not understood here", rest_));
+    if (!empty())
+        throw DebugError(
+            fmt::format("{}: not understood here; `help COMMAND` shows what it takes", rest_));
 }
 
 bool same_word(std::string_view one, std::string_view other) {
