@@ -31,8 +31,8 @@ uint16_t plus(unsigned address, unsigned offset) {
     return static_cast<uint16_t>(address + offset);
 }
 
-/// T-states of `count` turns of a loop of `per_turn` with a counter of two bytes, up to its end; the
-/// outer counter ticks once in 256 turns.
+/// T-states of `count` turns of a loop of `per_turn` with a counter of two bytes, up to its end;
+/// the outer counter ticks once in 256 turns.
 unsigned turns_t(unsigned count, unsigned per_turn) {
     constexpr unsigned kCounters = 14 + 11;  // DCR, JNZ taken; JNZ not taken 3 less, then the outer
     const unsigned outer = (count + 255) / 256;
@@ -41,8 +41,7 @@ unsigned turns_t(unsigned count, unsigned per_turn) {
 
 /// By hand from the T-states of the instructions, RET included.
 unsigned memcpy_t(unsigned size) {
-    const unsigned odd =
-        28 + ((size & 1) != 0 ? 33U : 10U) + 28 + ((size & 2) != 0 ? 59U : 10U);
+    const unsigned odd = 28 + ((size & 1) != 0 ? 33U : 10U) + 28 + ((size & 2) != 0 ? 59U : 10U);
     const unsigned turns = size / 4;
     if (turns == 0) return odd + 4 + 4 + 7 + 4 + 12;
     const unsigned set_up = turns % 256 != 0 ? 4 + 4 + 10 + 4 : 4 + 4 + 7 + 4 + 6 + 10;
@@ -53,8 +52,7 @@ unsigned memmove_t(unsigned size, bool backward) {
 }
 unsigned memset_t(unsigned size) {
     const unsigned odd = 12 + 4 + 4 + 4 + ((size & 1) != 0 ? 20U : 10U) + 4 +
-                         ((size & 2) != 0 ? 33U : 10U) + 4 +
-                         ((size & 4) != 0 ? 59U : 10U);
+                         ((size & 2) != 0 ? 33U : 10U) + 4 + ((size & 4) != 0 ? 59U : 10U);
     const unsigned turns = size / 8;
     const unsigned end = 10 + 10;
     const unsigned looked = 7 + 4 + 4 + 4;
@@ -72,8 +70,7 @@ void copy_and_check(Calls& call, unsigned size) {
     fill_random(kTarget - kBorder, size + 2 * kBorder);
     auto expected = bytes_at(kTarget - kBorder, size + 2 * kBorder);
     std::ranges::copy(bytes_at(kSource, size), expected.begin() + kBorder);
-    const Registers out =
-        call({.bc = static_cast<uint16_t>(size), .de = kSource, .hl = kTarget});
+    const Registers out = call({.bc = static_cast<uint16_t>(size), .de = kSource, .hl = kTarget});
     ASSERT_EQ(bytes_at(kTarget - kBorder, size + 2 * kBorder), expected) << size;
     ASSERT_EQ(out.de, plus(kSource, size)) << size;
     ASSERT_EQ(out.hl, plus(kTarget, size)) << size;
@@ -150,7 +147,7 @@ TEST(Copy, MemmoveAtEveryOverlap) {
         ASSERT_EQ(bytes_at(kSource, 1100), expected) << size;
         ASSERT_EQ(runtime().last_t(), memmove_t(size, true)) << size;
     }
-        EXPECT_EQ(memmove.best_t(), memmove_t(0, false));
+    EXPECT_EQ(memmove.best_t(), memmove_t(0, false));
     // As many bytes as leave the routines and the stack alone, then by the formula.
     const auto before = runtime().memory();
     (void)memmove({.bc = 0xAFFF, .de = 0x4000, .hl = 0x4001});

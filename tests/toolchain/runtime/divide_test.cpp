@@ -117,7 +117,8 @@ TEST(Divide, TwentyFourByEight) {
                                       .de = static_cast<uint16_t>(divisor),
                                       .hl = static_cast<uint16_t>(low)});
         const uint64_t dividend = high << 16 | low;
-        ASSERT_EQ(out.hl, divisor == 0 ? 0xFFFF : dividend / divisor) << dividend << " / " << divisor;
+        ASSERT_EQ(out.hl, divisor == 0 ? 0xFFFF : dividend / divisor)
+            << dividend << " / " << divisor;
         ASSERT_EQ(out.de, divisor == 0 ? low & 0xFF : dividend % divisor)
             << dividend << " / " << divisor;
     };
@@ -146,9 +147,9 @@ TEST(Divide, ThirtyTwoBySixteen) {
     for (unsigned divisor = 0; divisor < 0x10000; ++divisor) {
         for (int i = 0; i < 8; ++i) ASSERT_NO_FATAL_FAILURE(check(lumpy(source, 32), divisor));
     }
-    // The slowest of all divisors from 256 to 32767: found by the recursion "most T-states from here
-    // on" over all remainders and bits, with the T-states of a step counted by hand (28 for 0, 60
-    // for 1, 111 for a failed trial and the 1 behind it, 85 for a failed trial at a byte's end).
+    // The slowest of all divisors from 256 to 32767: found by the recursion "most T-states from
+    // here on" over all remainders and bits, with the T-states of a step counted by hand (28 for 0,
+    // 60 for 1, 111 for a failed trial and the 1 behind it, 85 for a failed trial at a byte's end).
     ASSERT_NO_FATAL_FAILURE(check(0x807BFBFC, 0x0103));
     EXPECT_EQ(runtime().last_t(), 244 + 1506);
     udiv.expect_stated();
@@ -173,13 +174,20 @@ TEST(Divide, ThirtyTwoByThirtyTwo) {
     };
     with_pairs(32, 32, kRandom / 2, check);
     with_products(32, 32, kRandom / 10, check);
-    // Every step takes its longest way: the remainder equals the divisor in all bytes.
+    // The slowest: every step subtracts after comparing two bytes, the last after three. A third
+    // comparison leaves a remainder below 256, so before the last step it costs eight subtractions.
     ASSERT_NO_FATAL_FAILURE(check(0xFFFF0000, 0x00010000));
-    ASSERT_NO_FATAL_FAILURE(check(0U - 0x7FFF0000U, 0U - 0x00010000U));
+    // Signed, the first step cannot subtract; here it compares three bytes, and so does the last.
+    ASSERT_NO_FATAL_FAILURE(check(0x80000000, 0U - 0x00010002U));
     for (const uint64_t a : corners(32)) {
         runtime().write(cells, 4, 0);
         ASSERT_EQ(udiv32(with_dehl(static_cast<uint32_t>(a))).dehl(), 0xFFFFFFFF) << a;
         ASSERT_EQ(runtime().read(cells, 4), a & 0xFF);
+        const bool negative = a >= 0x80000000;
+        runtime().write(cells, 4, 0);
+        ASSERT_EQ(sdiv32(with_dehl(static_cast<uint32_t>(a))).dehl(), negative ? 1 : 0xFFFFFFFF);
+        const auto remainder = static_cast<uint32_t>((negative ? 0 - a : a) & 0xFF);
+        ASSERT_EQ(runtime().read(cells, 4), negative ? 0 - remainder : remainder) << a;
     }
     udiv32.expect_stated();
     sdiv32.expect_stated();

@@ -60,10 +60,12 @@ TEST(Multiply, EightBySixteen) {
 
 TEST(Multiply, SixteenBySixteenLow) {
     Calls mul16("__mul16");
-    with_pairs(16, 16, 2 * kRandom, [&](uint64_t a, uint64_t b) {
+    const auto check = [&](uint64_t a, uint64_t b) {
         const Registers in{.de = static_cast<uint16_t>(b), .hl = static_cast<uint16_t>(a)};
         ASSERT_EQ(mul16(in).hl, a * b & 0xFFFF) << a << " * " << b;
-    });
+    };
+    with_pairs(16, 16, kRandom, check);
+    for (unsigned a = 0; a < 0x10000; ++a) ASSERT_NO_FATAL_FAILURE(check(a, 0xA5C3));
     mul16.expect_stated();
 }
 
@@ -77,7 +79,7 @@ TEST(Multiply, SixteenBySixteenToThirtyTwo) {
         const int product = static_cast<int16_t>(a) * static_cast<int16_t>(b);
         ASSERT_EQ(signed_product(in).dehl(), static_cast<uint32_t>(product)) << a << " * " << b;
     };
-    with_pairs(16, 16, 2 * kRandom, check);
+    with_pairs(16, 16, kRandom, check);
     for (unsigned a = 0; a < 0x10000; ++a) {
         for (const unsigned b : {0x0001U, 0x0101U, 0x7FFFU, 0x8000U, 0x8001U, 0xFFFFU}) {
             ASSERT_NO_FATAL_FAILURE(check(a, b));

@@ -46,8 +46,8 @@ void restrict(const std::string& name, Operands& operands) {
         if (name == "__memmove" && (operands.cells[0] & 1) != 0) std::swap(in.de, in.hl);
     }
     for (const unsigned bits : {8U, 16U, 32U, 64U}) {
-        if (name.find("sh") == name.npos ||
-            (!name.ends_with(fmt::format("r{}", bits)) && !name.ends_with(fmt::format("l{}", bits)))) {
+        if (name.find("sh") == name.npos || (!name.ends_with(fmt::format("r{}", bits)) &&
+                                             !name.ends_with(fmt::format("l{}", bits)))) {
             continue;
         }
         in.a %= static_cast<uint8_t>(bits);

@@ -123,7 +123,9 @@ void RuntimeMachine::read_blocks(std::string_view text) {
         if (line.starts_with("SECTION ")) {
             section = line.substr(8, line.find(',') - 8);
             const std::size_t remark = line.find("; ");
-            bytes = remark == line.npos ? 0 : static_cast<unsigned>(std::stoul(line.substr(remark + 2)));
+            bytes = remark == line.npos
+                        ? 0
+                        : static_cast<unsigned>(std::stoul(line.substr(remark + 2)));
         } else if (line.starts_with("; __")) {
             Routine routine;
             routine.name = line.substr(2, line.find(' ', 2) - 2);
@@ -162,8 +164,8 @@ Registers RuntimeMachine::call(uint16_t entry, const Registers& in) {
     write(kStack, 2, kHalt);
     const uint64_t begin = cpu.t;
     if (machine_.run(begin + kLimitT) != host_sim::RunEnd::halted || cpu.sp != kStack + 2) {
-        throw std::runtime_error(fmt::format("the routine at {:04X}H does not return; PC {:04X}H",
-                                             entry, cpu.pc));
+        throw std::runtime_error(
+            fmt::format("the routine at {:04X}H does not return; PC {:04X}H", entry, cpu.pc));
     }
     last_t_ = static_cast<unsigned>(cpu.t - begin - kHaltT);
     return {.a = cpu.a, .flags = cpu.f, .bc = cpu.bc(), .de = cpu.de(), .hl = cpu.hl()};
@@ -215,10 +217,9 @@ Registers Calls::filled(const Registers& in) {
 Registers Calls::operator()(const Registers& operands) {
     const Registers in = filled(operands);
     const Registers out = runtime().call(entry_, in);
-    const bool wrong = ((in.a ^ out.a) & ~changing_.a) != 0 ||
-                       ((in.bc ^ out.bc) & ~changing_.bc) != 0 ||
-                       ((in.de ^ out.de) & ~changing_.de) != 0 ||
-                       ((in.hl ^ out.hl) & ~changing_.hl) != 0;
+    const bool wrong =
+        ((in.a ^ out.a) & ~changing_.a) != 0 || ((in.bc ^ out.bc) & ~changing_.bc) != 0 ||
+        ((in.de ^ out.de) & ~changing_.de) != 0 || ((in.hl ^ out.hl) & ~changing_.hl) != 0;
     if (wrong && !reported_) {
         reported_ = true;
         ADD_FAILURE() << fmt::format("{} changes a register it should not: {} became {}",
@@ -237,17 +238,16 @@ Registers Calls::operator()(const Registers& operands) {
 }
 
 void Calls::expect_stated() const {
-    EXPECT_TRUE(best_t_ == routine_.best_t && worst_t_ == routine_.worst_t)
-        << fmt::format("{} states {} to {} T, seen {} to {}; with {} and with {}", routine_.name,
-                       routine_.best_t, routine_.worst_t, best_t_, worst_t_, shown(best_in_),
-                       shown(worst_in_));
+    EXPECT_TRUE(best_t_ == routine_.best_t && worst_t_ == routine_.worst_t) << fmt::format(
+        "{} states {} to {} T, seen {} to {}; with {} and with {}", routine_.name, routine_.best_t,
+        routine_.worst_t, best_t_, worst_t_, shown(best_in_), shown(worst_in_));
 }
 
 std::mt19937_64& random_source() {
     static std::mt19937_64 source = [] {
         const char* wanted = std::getenv("ROVER_RUNTIME_SEED");
         const uint64_t seed = wanted != nullptr ? std::stoull(wanted) : std::random_device()();
-        fmt::print("ROVER_RUNTIME_SEED={}\n", seed);
+        fmt::print(stderr, "ROVER_RUNTIME_SEED={}\n", seed);
         return std::mt19937_64(seed);
     }();
     return source;
@@ -260,11 +260,16 @@ uint64_t lumpy(std::mt19937_64& source, unsigned bits) {
     const auto keep = static_cast<unsigned>(shape % (bits + 1));
     const uint64_t low = keep == 64 ? value : value & ((uint64_t{1} << keep) - 1);
     switch (shape >> 61) {
-        case 0: return low;                                           // leading zeros
-        case 1: return ~low & all;                                    // leading ones
-        case 2: return value << (bits - keep) % 64 & all;             // trailing zeros
-        case 3: return ~(value << (bits - keep) % 64) & all;          // trailing ones
-        default: return value & all;
+        case 0:
+            return low;  // leading zeros
+        case 1:
+            return ~low & all;  // leading ones
+        case 2:
+            return value << (bits - keep) % 64 & all;  // trailing zeros
+        case 3:
+            return ~(value << (bits - keep) % 64) & all;  // trailing ones
+        default:
+            return value & all;
     }
 }
 

@@ -35,12 +35,12 @@ struct Registers {
 struct Routine {
     std::string name;
     std::string section;
-    unsigned stated_bytes = 0;  ///< of that section
+    unsigned stated_bytes = 0;          ///< of that section
     std::vector<std::string> in;        ///< registers and cells
     std::vector<std::string> out;       ///< registers and cells
     std::vector<std::string> clobbers;  ///< registers
     std::vector<std::string> calls;
-    unsigned best_t = 0;                ///< T-states, RET included and CALL not
+    unsigned best_t = 0;  ///< T-states, RET included and CALL not
     unsigned worst_t = 0;
 };
 
@@ -101,8 +101,8 @@ private:
 
     const Routine& routine_;
     uint16_t entry_;
-    Registers taken_;    ///< bits set where a register is an operand
-    Registers changing_; ///< and where it is a result or clobbered
+    Registers taken_;     ///< bits set where a register is an operand
+    Registers changing_;  ///< and where it is a result or clobbered
     uint64_t filler_ = 0;
     bool reported_ = false;
     unsigned best_t_ = ~0U;

@@ -93,8 +93,7 @@ TEST(Shift, SixtyFourBits) {
     };
     with_values(64, [&](uint64_t value, unsigned count) {
         ASSERT_EQ(shifted(shl, value, count), left(value, count, 64)) << value << " by " << count;
-        ASSERT_EQ(shifted(lshr, value, count), right(value, count, 64))
-            << value << " by " << count;
+        ASSERT_EQ(shifted(lshr, value, count), right(value, count, 64)) << value << " by " << count;
         ASSERT_EQ(shifted(ashr, value, count), right_signed(value, count, 64))
             << value << " by " << count;
     });
