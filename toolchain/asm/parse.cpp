@@ -94,7 +94,7 @@ private:
     }
 
     bool line(std::string_view text) {
-        if (options_.unit_comments && trimmed(text).starts_with(';')) unit_comment(trimmed(text));
+        if (options_.routine_comments && text.starts_with(";  ")) routine_comment(text);
         line_ = split_line(text);
         here_ = size_;
         if (line_.operation == "END") return false;
@@ -209,26 +209,16 @@ private:
         for (std::size_t i = 2; i < operands.size(); ++i) section_option(operands[i]);
     }
 
-    void unit_comment(std::string_view text) {
-        constexpr std::array<std::string_view, 6> kNotes = {"in", "out",   "clobbers",
-                                                            "t",  "calls", "stack"};
-        const bool marker = text.starts_with(";;");
-        text = trimmed(text.substr(marker ? 2 : 1));
+    void routine_comment(std::string_view text) {
+        constexpr std::array<std::string_view, 6> kKeys = {"in", "out",   "clobbers",
+                                                           "t",  "calls", "stack"};
+        text = trimmed(text.substr(1));
         const std::size_t space = std::min(text.find_first_of(" \t"), text.size());
-        const std::string word(text.substr(0, space));
+        const std::string key(text.substr(0, space));
         const std::string rest(trimmed(text.substr(space)));
-        if (marker && word == "unit" && is_symbol(rest)) {
-            unit_ = rest;
-            open_section(unit_, SectionKind::code);
-            current().function = unit_;
-        } else if (marker && word == "cells" && !unit_.empty()) {
-            open_section(unit_ + ".cells", SectionKind::persistent);
-            current().function = unit_;
-        } else if (!marker && !rest.empty() && !unit_.empty() &&
-                   std::ranges::find(kNotes, word) != kNotes.end()) {
-            add(note(word + ' ' + rest, location()));
-            noted_ = true;
-        }
+        if (rest.empty() || std::ranges::find(kKeys, key) == kKeys.end()) return;
+        add(note(key + ' ' + rest, location()));
+        noted_ = true;
     }
 
     void section_option(const std::string& option) {
@@ -375,8 +365,7 @@ private:
     Names names_;
     std::vector<Diagnostic> mistakes_;
     SourceLine line_;
-    std::string unit_;    ///< of unit comments; empty: none yet
-    bool noted_ = false;  ///< a unit comment describes the routine that comes next
+    bool noted_ = false;  ///< a comment describes the routine that comes next
     uint32_t line_number_ = 0;
     std::size_t section_ = 0;
     std::size_t size_ = 0;    ///< of the current section

@@ -27,12 +27,10 @@ struct ParseOptions {
     std::string file = "source";  ///< name for messages and locations
     /// Address of the section that is there before any SECTION, `code`. Nothing: relocatable.
     std::optional<uint16_t> origin{};
-    /// Takes the comments of the runtime library as directives: `;; unit NAME` is SECTION
-    /// NAME,code;
-    /// `;; cells` is SECTION NAME.cells,persistent and belongs to function NAME; `;   key text`
-    /// with key one of in, out, clobbers, t, calls, stack is the note `key text` of the label
-    /// behind it.
-    bool unit_comments = false;
+    /// Takes the comments that describe a routine of the runtime library (docs/spec/runtime.md): a
+    /// comment line `;   key text` with key one of in, out, clobbers, t, calls, stack is the note
+    /// `key text`, and the next label is a function.
+    bool routine_comments = false;
 };
 
 /// Assembles a source as far as one can without knowing other modules.

@@ -8,6 +8,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 constexpr std::string_view kRoutines = R"(
         SECTION mul,code,FUNCTION mul

@@ -9,6 +9,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 TEST(ImageFiles, ARecordByHand) {
     // Checksum: 03+00+24+00+C3+34+12 = 130H, so D0H. Start record: 04+05+12+34 = 4FH, so B1H.

@@ -12,6 +12,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 std::string refused(std::string_view source, const LinkOptions& options) {
     return errors_of([&] { (void)linked(source, options); });

@@ -8,6 +8,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 TEST(Listing, ByHand) {
     const Program program = linked(R"(SECTION f,code,TITLE 'f(int)'

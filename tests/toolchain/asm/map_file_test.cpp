@@ -8,6 +8,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 TEST(MapFile, ByHand) {
     LinkOptions options = rooted({"f", "g"});
@@ -67,9 +68,10 @@ TEST(MapFile, OnlyStraightCodeHasAnExactTime) {
     EXPECT_EQ(straight("SECTION x,constant\nDB 0C9H\n"), std::nullopt);
 }
 
-TEST(MapFile, RoutinesOfAUnitAreTakenTogether) {
-    const Module module = parse(";; unit u\n;   t 20 to 30\nf: RNZ\nRET\n;   t 10 to 12\ng: RET\n",
-                                {"u.s85", {}, true});
+TEST(MapFile, RoutinesOfASectionAreTakenTogether) {
+    const Module module =
+        parse("SECTION u,code\n;   t 20 to 30\nf: RNZ\nRET\n;   t 10 to 12\ng: RET\n",
+              {"u.s85", {}, true});
     const auto functions = function_sizes(link({module}, rooted({"f"})));
     ASSERT_EQ(functions.size(), 1u);
     EXPECT_EQ(functions[0].t_states, (TStates{10, 30}));

@@ -9,6 +9,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 std::string refused(std::string_view source) {
     return errors_of([&] { (void)module_of(source); });
@@ -68,9 +69,9 @@ TEST(Parse, TheCurrentAddressInARelocatableSection) {
     EXPECT_EQ(bytes_at(program, 0, 6), (Bytes{0x00, 0xC3, 0x01, 0x00, 0xFC, 0xFF}));
 }
 
-TEST(Parse, UnitCommentsOfTheRuntimeLibrary) {
-    const Module module = parse(R"(; comment of the file
-;; unit mul
+TEST(Parse, CommentsThatDescribeARoutine) {
+    const Module module = parse(R"(; in the file's comment nothing counts
+SECTION mul,code
 ; __mul      HL = HL * DE
 ;   in       HL DE
 ;   t        123 to 474
@@ -79,21 +80,16 @@ __mul:  SHLD __mul.left
         RET
 ;   t        5 to 6
 __mul2: RET
-;; cells
-__mul.left: DS 2
 )",
                                 {"mul.s85", {}, true});
-    ASSERT_EQ(module.sections.size(), 2u);
+    ASSERT_EQ(module.sections.size(), 1u);
     const Section& code = module.sections[0];
-    EXPECT_EQ(code.name, "mul");
     EXPECT_EQ(code.items[0], note("in HL DE", {0, 4}));
     EXPECT_EQ(code.items[1], note("t 123 to 474", {0, 5}));
     EXPECT_EQ(code.items[2].label_kind, LabelKind::function);
+    EXPECT_EQ(code.items[5], note("t 5 to 6", {0, 9}));
     EXPECT_EQ(code.items[6].label_kind, LabelKind::function);
     EXPECT_EQ(code.items.size(), 8u);
-    EXPECT_EQ(module.sections[1].name, "mul.cells");
-    EXPECT_EQ(module.sections[1].kind, SectionKind::persistent);
-    EXPECT_EQ(module.sections[1].function, "mul");
 }
 
 TEST(Parse, EveryMistakeIsReportedWithItsLine) {

@@ -8,6 +8,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 TEST(Print, Items) {
     EXPECT_EQ(item_text(instruction(0x41)), "MOV   B,C");

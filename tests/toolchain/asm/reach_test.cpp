@@ -8,6 +8,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 constexpr std::string_view kChain =
     "SECTION s0,code\nf: CALL g\nSECTION s1,code\ng: LDA alias\nSECTION s2,zero\nv: DS 2\n"

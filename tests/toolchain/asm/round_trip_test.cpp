@@ -17,6 +17,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 namespace isa = toolchain::isa;
 
 /// Sections of random instructions that refer to each other.

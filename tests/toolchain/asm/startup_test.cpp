@@ -13,6 +13,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 struct Case {
     unsigned data;

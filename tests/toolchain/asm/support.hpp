@@ -11,7 +11,11 @@
 
 namespace asm_test {
 
-using namespace toolchain::assembly;
+using toolchain::assembly::Error;
+using toolchain::assembly::LinkOptions;
+using toolchain::assembly::Module;
+using toolchain::assembly::Program;
+using toolchain::assembly::Symbol;
 using Bytes = std::vector<uint8_t>;
 
 /// The messages of the Error that `step` throws, or "accepted".
@@ -27,11 +31,11 @@ std::string errors_of(Step step) {
 
 /// A source as file t.s85.
 inline Module module_of(std::string_view source) {
-    return parse(source, {"t.s85"});
+    return toolchain::assembly::parse(source, {"t.s85"});
 }
 
 inline Program linked(std::string_view source, const LinkOptions& options = {}) {
-    return link({module_of(source)}, options);
+    return toolchain::assembly::link({module_of(source)}, options);
 }
 
 inline LinkOptions rooted(std::initializer_list<std::string> roots) {

@@ -9,6 +9,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 TEST(SymbolFile, ByHand) {
     LinkOptions options = rooted({"_Z5drivei"});

@@ -8,6 +8,7 @@
 namespace {
 
 using namespace asm_test;
+using namespace toolchain::assembly;
 
 std::string findings(const Program& program, bool undocumented = false) {
     std::string text;
