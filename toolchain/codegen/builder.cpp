@@ -47,7 +47,8 @@ ByteId Builder::constant_byte(uint8_t value) {
 Bytes Builder::constant(uint64_t value, std::size_t size) {
     Bytes bytes;
     for (std::size_t i = 0; i < size; ++i) {
-        bytes.push_back(constant_byte(i < 8 ? static_cast<uint8_t>(value >> i * kByteBits) : 0));
+        bytes.push_back(
+            constant_byte(i < 8 ? static_cast<uint8_t>(value >> i * kByteBits) : uint8_t{0}));
     }
     return bytes;
 }

@@ -65,7 +65,7 @@ int64_t Interpreter::signed_number(const Frame& frame, const Bytes& bytes) const
 
 void Interpreter::set(Frame& frame, const Bytes& bytes, uint64_t value) {
     for (std::size_t i = 0; i < bytes.size(); ++i) {
-        frame.values[bytes[i]] = static_cast<uint8_t>(i < 8 ? value >> 8 * i : 0);
+        frame.values[bytes[i]] = static_cast<uint8_t>(i < 8 ? value >> 8 * i : uint64_t{0});
     }
 }
 
