@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
 #include "host_sim/image/image.hpp"
 #include "support.hpp"
 
@@ -37,6 +41,25 @@ TEST(ImageFiles, TheSimulatorReadsThemBack) {
     const host_sim::Image bin = host_sim::read_bin(write_bin(program), 0, "test");
     EXPECT_EQ(bin.byte_count(), 306u);
     EXPECT_TRUE(std::equal(bin.bytes.begin(), bin.bytes.begin() + 306, hex.bytes.begin()));
+}
+
+TEST(ImageFiles, SrecordAgrees) {
+    if (std::system("srec_cat --version >/dev/null 2>&1") != 0) {
+        GTEST_SKIP() << "srec_cat is not installed (apt-get install srecord)";
+    }
+    LinkOptions options;
+    options.vectors = {{0x0000, "f"}};
+    const Program program = linked("SECTION f,code\nf: JMP f\nDS 300\n", options);
+    const auto folder = std::filesystem::path(testing::TempDir()) / "rover85_image_files";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "p.hex") << write_hex(program);
+    const std::string base = (folder / "p").string();
+    ASSERT_EQ(
+        std::system(("srec_cat '" + base + ".hex' -intel -o '" + base + ".bin' -binary").c_str()),
+        0);
+    std::ifstream in(folder / "p.bin", std::ios::binary);
+    EXPECT_EQ(std::string((std::istreambuf_iterator<char>(in)), {}), write_bin(program));
+    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

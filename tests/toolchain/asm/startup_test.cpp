@@ -75,6 +75,13 @@ TEST(Startup, OnlyWhatThereIsToDo) {
     // LXI SP 10; LXI H, LXI D 20; MVI C 7; a round of 7+7+6+6+4 and JNZ 7.
     const Startup copy = make_startup({}, {{0x8000, 1}, {0x100, 1}, {}, 0});
     EXPECT_EQ(copy.t_states, 10u + 20 + 7 + 30 + 7);
+    // 10 bytes as above; clearing LXI LXI MVI PUSH DCR JNZ, copying LXI LXI MVI, 4 moves, DCR JNZ;
+    // beyond 256 rounds LXI for MVI, and DCR JNZ again.
+    EXPECT_EQ(section_size(clear.section), 10u + 13);
+    EXPECT_EQ(section_size(copy.section), 10u + 16);
+    EXPECT_EQ(section_size(make_startup({}, {{}, {}, {0x8000, 514}, 0}).section), 10u + 18);
+    EXPECT_EQ(section_size(make_startup({}, {{0x8000, 257}, {0x100, 257}, {}, 0}).section),
+              10u + 21);
     EXPECT_THROW((void)make_startup({}, {{}, {}, {0x8000, 3}, 0}), std::invalid_argument);
 }
 
