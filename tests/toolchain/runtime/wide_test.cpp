@@ -41,6 +41,13 @@ void with_pairs(unsigned random, Check check) {
     }
 }
 
+/// FFH in the bytes up to the dividend's highest that is not 0.
+uint64_t quotient_by_0(uint64_t dividend) {
+    uint64_t quotient = 0;
+    while (quotient < dividend) quotient = quotient << 8 | 0xFF;
+    return quotient;
+}
+
 TEST_F(Wide, Multiply) {
     Calls mul64("__mul64");
     const auto check = [&](uint64_t a, uint64_t b) {
@@ -58,9 +65,7 @@ TEST_F(Wide, DivideUnsigned) {
     const auto check = [&](uint64_t a, uint64_t b) {
         (void)call(udiv64, a, b);
         if (b == 0) {
-            uint64_t quotient = 0;
-            while (quotient < a) quotient = quotient << 8 | 0xFF;
-            ASSERT_EQ(a_, quotient) << a;
+            ASSERT_EQ(a_, quotient_by_0(a)) << a;
             ASSERT_EQ(b_, a);
             return;
         }
@@ -79,6 +84,9 @@ TEST_F(Wide, DivideSigned) {
     const auto check = [&](uint64_t a, uint64_t b) {
         (void)call(sdiv64, a, b);
         if (b == 0) {
+            const bool negative = a >> 63 != 0;
+            const uint64_t quotient = quotient_by_0(negative ? 0 - a : a);
+            ASSERT_EQ(a_, negative ? 0 - quotient : quotient) << a;
             ASSERT_EQ(b_, a);
             return;
         }
@@ -95,6 +103,7 @@ TEST_F(Wide, DivideSigned) {
             ASSERT_NO_FATAL_FAILURE(check(a, b));
         }
     }
+    for (const uint64_t a : corners(64)) ASSERT_NO_FATAL_FAILURE(check(a, 0));
     sdiv64.expect_stated();
 }
 
