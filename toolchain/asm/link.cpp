@@ -206,21 +206,19 @@ private:
         place_block(SectionKind::persistent);
     }
 
+    [[nodiscard]] Startup build_startup() const {
+        const auto stack_end = static_cast<uint16_t>(program_.stack.end());
+        return make_startup(*options_.startup,
+                            {program_.data, program_.data_image, program_.zero, stack_end});
+    }
+
+    /// Its size does not depend on where the image of the data will be, so it has one before.
     void make_start() {
         if (!options_.startup) return;
-        const auto stack_end = static_cast<uint16_t>(program_.stack.end());
-        const auto build = [&] {
-            return make_startup(*options_.startup,
-                                {program_.data, program_.data_image, program_.zero, stack_end});
-        };
-        // Its size does not depend on where the image of the data will be.
-        Startup startup = build();
+        Startup startup = build_startup();
         program_.startup_t_states = startup.t_states;
         startup_ = program_.sections.size();
         take(startup.section, 0);
-        remake_start_ = [this, build] {
-            program_.sections[startup_].section.items = build().section.items;
-        };
     }
 
     void place_rom() {
@@ -240,7 +238,8 @@ private:
             placed.load_address =
                 static_cast<uint16_t>(placed.address - program_.data.first + *image);
         }
-        if (remake_start_) remake_start_();
+        if (options_.startup)
+            program_.sections[startup_].section.items = build_startup().section.items;
         std::ranges::stable_sort(program_.sections, {}, &PlacedSection::address);
     }
 
@@ -413,8 +412,7 @@ private:
     FreeSpace ram_;
     Program program_;
     std::vector<Equate> equates_;
-    std::size_t startup_ = 0;
-    std::function<void()> remake_start_;
+    std::size_t startup_ = 0;  ///< its section, if there is one, until sections are sorted
 };
 
 }  // namespace
