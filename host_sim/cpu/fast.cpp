@@ -23,18 +23,18 @@
         if (__builtin_expect(r.clock < 0, false)) goto time_is_up; \
         ROVER_NEXT                                                 \
     }
-#define ROVER_ROW(n)                                                                               \
-    ROVER_OPCODE(n##0)                                                                             \
-    ROVER_OPCODE(n##1)                                                                             \
-    ROVER_OPCODE(n##2)                                                                             \
-    ROVER_OPCODE(n##3) ROVER_OPCODE(n##4) ROVER_OPCODE(n##5) ROVER_OPCODE(n##6) ROVER_OPCODE(n##7) \
-        ROVER_OPCODE(n##8) ROVER_OPCODE(n##9) ROVER_OPCODE(n##A) ROVER_OPCODE(n##B)                \
-            ROVER_OPCODE(n##C) ROVER_OPCODE(n##D) ROVER_OPCODE(n##E) ROVER_OPCODE(n##F)
-#define ROVER_LABELS(n)                                                                      \
-    &&opcode_##n##0, &&opcode_##n##1, &&opcode_##n##2, &&opcode_##n##3, &&opcode_##n##4,     \
-        &&opcode_##n##5, &&opcode_##n##6, &&opcode_##n##7, &&opcode_##n##8, &&opcode_##n##9, \
-        &&opcode_##n##A, &&opcode_##n##B, &&opcode_##n##C, &&opcode_##n##D, &&opcode_##n##E, \
-        &&opcode_##n##F
+// clang-format off
+#define ROVER_ROW(n)                                                                             \
+    ROVER_OPCODE(n##0) ROVER_OPCODE(n##1) ROVER_OPCODE(n##2) ROVER_OPCODE(n##3)                  \
+    ROVER_OPCODE(n##4) ROVER_OPCODE(n##5) ROVER_OPCODE(n##6) ROVER_OPCODE(n##7)                  \
+    ROVER_OPCODE(n##8) ROVER_OPCODE(n##9) ROVER_OPCODE(n##A) ROVER_OPCODE(n##B)                  \
+    ROVER_OPCODE(n##C) ROVER_OPCODE(n##D) ROVER_OPCODE(n##E) ROVER_OPCODE(n##F)
+#define ROVER_LABELS(n)                                                                          \
+    &&opcode_##n##0, &&opcode_##n##1, &&opcode_##n##2, &&opcode_##n##3,                          \
+    &&opcode_##n##4, &&opcode_##n##5, &&opcode_##n##6, &&opcode_##n##7,                          \
+    &&opcode_##n##8, &&opcode_##n##9, &&opcode_##n##A, &&opcode_##n##B,                          \
+    &&opcode_##n##C, &&opcode_##n##D, &&opcode_##n##E, &&opcode_##n##F
+// clang-format on
 
 namespace host_sim {
 

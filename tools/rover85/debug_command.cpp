@@ -32,29 +32,20 @@ void ask_interrupt(int) {
     interrupt_asked = 1;
 }
 
-/// Ctrl-C ends a run instead of the program while this lives.
-class InterruptKey {
-public:
-    InterruptKey() {
-        struct sigaction action{};
-        action.sa_handler = ask_interrupt;
-        action.sa_flags = SA_RESTART;
-        sigaction(SIGINT, &action, &before_);
-    }
-    ~InterruptKey() { sigaction(SIGINT, &before_, nullptr); }
-    InterruptKey(const InterruptKey&) = delete;
-    InterruptKey& operator=(const InterruptKey&) = delete;
+/// From now on Ctrl-C ends a run instead of the program.
+void watch_interrupt_key() {
+    struct sigaction action{};
+    action.sa_handler = ask_interrupt;
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGINT, &action, nullptr);
+}
 
-    /// Whether it was pressed since the last call.
-    static bool taken() {
-        const bool asked = interrupt_asked != 0;
-        interrupt_asked = 0;
-        return asked;
-    }
-
-private:
-    struct sigaction before_{};
-};
+/// Whether it was pressed since the last call.
+bool take_interrupt() {
+    const bool asked = interrupt_asked != 0;
+    interrupt_asked = 0;
+    return asked;
+}
 
 host_sim::BoardOptions board_options(const DebugOptions& options) {
     host_sim::BoardOptions board;
@@ -92,8 +83,8 @@ int debug(const DebugOptions& options) {
     const host_sim::Symbols symbols = debug_console::find_symbols(options.symbols, options.image);
     debug_console::Session session(board_options(options), debug_console::Names(symbols));
     debug_console::load_image(image, session.board);
-    const InterruptKey key;
-    session.interrupted = [] { return InterruptKey::taken(); };
+    watch_interrupt_key();
+    session.interrupted = take_interrupt;
     debug_console::Console console(session, std::cout);
     console.observers.image = image;
 

@@ -81,11 +81,11 @@ TEST_F(MirFunction, DefinitionOnOneOfTwoWaysIsNotEnough) {
 }
 
 TEST_F(MirFunction, EdgesMustFitTheirTarget) {
+    function.blocks.emplace_back();
     Terminator& end = function.blocks[0].terminator;
     end.kind = Terminator::Kind::jump;
     end.edges = {{0, x}};
     EXPECT_EQ(verify(function), "block 0: an edge to the entry or to nowhere");
-    function.blocks.emplace_back();
     end.edges = {{1, x}};
     EXPECT_EQ(verify(function), "block 0: an edge with the wrong number of arguments");
 }
