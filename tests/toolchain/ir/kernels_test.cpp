@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 #include <llvm/IRReader/IRReader.h>
 #include <llvm/Linker/Linker.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "tests/toolchain/ir/ir_program.hpp"
 
@@ -26,9 +28,9 @@ class Kernels : public testing::TestWithParam<std::tuple<Kernel, std::string>> {
 
 std::unique_ptr<llvm::Module> compile(const fs::path& source, const std::string& level,
                                       llvm::LLVMContext& context) {
-    const fs::path bitcode = fs::temp_directory_path() /
-                             fmt::format("kernels_test_{}_{}_{}.bc", source.stem().string(), level,
-                                         testing::UnitTest::GetInstance()->random_seed());
+    const fs::path bitcode =
+        fs::temp_directory_path() /
+        fmt::format("kernels_test_{}_{}_{}.bc", source.stem().string(), level, getpid());
     const std::string command = fmt::format(
         "clang-19 --target=msp430-none-elf -fpack-struct=1 -ffreestanding -O{} -emit-llvm -c "
         "-I'{}' '{}' -o '{}'",
@@ -48,7 +50,9 @@ TEST_P(Kernels, GivesItsChecksum) {
     llvm::LLVMContext context;
     auto module = compile(folder / (std::string(kernel.name) + ".c"), level, context);
     ASSERT_NE(module, nullptr);
-    ASSERT_FALSE(llvm::Linker::linkModules(*module, compile(folder / "kdata.c", "1", context)));
+    auto data = compile(folder / "kdata.c", "1", context);
+    ASSERT_NE(data, nullptr);
+    ASSERT_FALSE(llvm::Linker::linkModules(*module, std::move(data)));
     const auto mir = ir_test::to_mir(*module);
     codegen_test::Interpreter interpreter(mir);
     interpreter.call("kernel");
