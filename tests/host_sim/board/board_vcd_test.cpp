@@ -2,6 +2,7 @@
 #include "host_sim/board/board_vcd.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <filesystem>
