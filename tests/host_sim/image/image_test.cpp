@@ -238,7 +238,7 @@ class SrecCat : public testing::Test {
 protected:
     void SetUp() override {
         if (std::system("srec_cat --version >/dev/null 2>&1") != 0) {
-            GTEST_SKIP() << "srec_cat is not installed (apt-get install srecord)";
+            FAIL() << "srec_cat is not installed (apt-get install srecord)";
         }
         std::string pattern = (fs::temp_directory_path() / "rover85-image-XXXXXX").string();
         folder_ = ::mkdtemp(pattern.data());
