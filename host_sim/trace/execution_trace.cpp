@@ -23,23 +23,6 @@ bool is_code(Kind kind) {
     return kind == Kind::fetch || kind == Kind::operand || kind == Kind::acknowledge;
 }
 
-std::string_view interrupt_name(StepRecord::Kind kind) {
-    switch (kind) {
-        case StepRecord::Kind::trap:
-            return "TRAP";
-        case StepRecord::Kind::rst75:
-            return "RST 7.5";
-        case StepRecord::Kind::rst65:
-            return "RST 6.5";
-        case StepRecord::Kind::rst55:
-            return "RST 5.5";
-        case StepRecord::Kind::intr:
-            return "INTR";
-        default:
-            return "";
-    }
-}
-
 /// The instruction's bytes as the bus gave them, and its text.
 struct Code {
     std::string bytes;
@@ -117,6 +100,23 @@ void append_accesses(std::string& line, const StepRecord& step) {
 }
 
 }  // namespace
+
+std::string_view interrupt_name(StepRecord::Kind kind) {
+    switch (kind) {
+        case StepRecord::Kind::trap:
+            return "TRAP";
+        case StepRecord::Kind::rst75:
+            return "RST 7.5";
+        case StepRecord::Kind::rst65:
+            return "RST 6.5";
+        case StepRecord::Kind::rst55:
+            return "RST 5.5";
+        case StepRecord::Kind::intr:
+            return "INTR";
+        default:
+            return "";
+    }
+}
 
 ExecutionTrace::ExecutionTrace(std::ostream& out, ExecutionTraceOptions options)
     : out_(out), options_(std::move(options)) {}

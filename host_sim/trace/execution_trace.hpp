@@ -7,12 +7,16 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "host_sim/cpu/cpu_state.hpp"
 #include "host_sim/cpu/step_record.hpp"
 #include "host_sim/image/symbols.hpp"
 
 namespace host_sim {
+
+/// "TRAP", "RST 7.5" ... "INTR"; empty for a step that takes no interrupt.
+[[nodiscard]] std::string_view interrupt_name(StepRecord::Kind kind);
 
 /// What to write, and what is known besides the steps.
 struct ExecutionTraceOptions {

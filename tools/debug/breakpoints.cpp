@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
+#include "host_sim/trace/execution_trace.hpp"
 #include "toolchain/isa/disassemble.hpp"
 #include "tools/debug/debug_error.hpp"
 
@@ -16,20 +18,8 @@ using host_sim::StepRecord;
 using toolchain::isa::intel_hex;
 
 std::string interrupt_name(StepRecord::Kind kind) {
-    switch (kind) {
-        case StepRecord::Kind::trap:
-            return "TRAP";
-        case StepRecord::Kind::rst75:
-            return "RST 7.5";
-        case StepRecord::Kind::rst65:
-            return "RST 6.5";
-        case StepRecord::Kind::rst55:
-            return "RST 5.5";
-        case StepRecord::Kind::intr:
-            return "INTR";
-        default:
-            return "any interrupt";
-    }
+    const std::string_view name = host_sim::interrupt_name(kind);
+    return name.empty() ? "any interrupt" : std::string(name);
 }
 
 const BusAccess* matching_access(const Breakpoint& breakpoint, const StepRecord& record) {
@@ -52,7 +42,7 @@ std::string Breakpoint::text(const Names& names) const {
     if (kind == Kind::address) {
         what = names.address_text(first);
     } else if (kind == Kind::interrupt) {
-        what = interrupt_name(interrupt);
+        what = debug_console::interrupt_name(interrupt);
     } else if (kind == Kind::port) {
         what = "port " + intel_hex(first, 2) + (!writes ? " in" : !reads ? " out" : "");
     } else {

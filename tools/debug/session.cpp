@@ -173,7 +173,7 @@ bool Session::breakpoint_behind(const StepRecord& record, Stop& stop) {
     if (!breakpoint) return false;
     const BusAccess* access = matching_access(*breakpoint, record);
     const std::string what = breakpoint->kind == Breakpoint::Kind::interrupt
-                                 ? interrupt_name(record.kind) + " taken instead of "
+                                 ? debug_console::interrupt_name(record.kind) + " taken instead of "
                                  : access_text(*access, names) + " by ";
     stop = {Stop::Kind::breakpoint, fmt::format("breakpoint {}: {}{}", breakpoint->id, what,
                                                 names.address_text(record.pc))};

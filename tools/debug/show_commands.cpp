@@ -192,7 +192,7 @@ std::string frame_text(const Frame& frame, const Names& names) {
                       : frame.kind == Frame::Kind::rst65 ? Kind::rst65
                       : frame.kind == Frame::Kind::rst55 ? Kind::rst55
                                                          : Kind::intr;
-    return fmt::format("{} by {} at {}", target, interrupt_name(kind), from);
+    return fmt::format("{} by {} at {}", target, debug_console::interrupt_name(kind), from);
 }
 
 void where(Console& console, Arguments& arguments) {
