@@ -1,6 +1,6 @@
 // mir.hpp - the back end's own representation: values are single bytes, operations work on strings
 // of them.
-// Depends on   the standard library.
+// Depends on   machine.hpp (registers).
 // Why bytes    on the 8085 the parts of a wide value live in different places. Truncation, zero
 //              extension and shifts by 8 then cost nothing: they are other views of the same bytes.
 // Design note  docs/design/compiler.md
@@ -10,6 +10,8 @@
 #include <map>
 #include <string>
 #include <vector>
+
+#include "toolchain/codegen/machine.hpp"
 
 namespace toolchain::codegen {
 
@@ -63,6 +65,7 @@ enum class Opcode : uint8_t {
     read_mask,  ///< RIM
     set_mask,   ///< SIM
     no_operation,
+    stack_address,  ///< results = address of Function::stack_bytes + `immediate16`; one word
 };
 
 /// Comparisons that one subtraction decides; the others swap their operands or their branches.
@@ -93,6 +96,15 @@ struct Operation {
     Bytes right{};
     std::vector<Bytes> arguments{};  ///< of a call
     SourcePlace place{};
+
+    // Of a call behind lower_calls(): `arguments` is then one string of bytes, each with its
+    // register, and so have the results; what does not fit into registers is stored and loaded.
+    std::vector<Register> argument_registers{};
+    std::vector<Register> result_registers{};
+    RegisterSet clobbers = kAllRegisters;  ///< of a runtime routine; a function's are asked for
+    SymbolId signature = kNone;            ///< of an indirect call: which functions it may reach
+    bool reenters = false;                 ///< may come back into this function while it is active
+    uint32_t immediate16 = 0;              ///< of stack_address
 };
 
 /// A way to another block, with the values of its parameters.
@@ -106,6 +118,7 @@ struct Terminator {
     enum class Kind : uint8_t {
         jump,       ///< edges[0]
         branch,     ///< edges[0] if predicate(left, right), else edges[1]
+        table,      ///< edges[left]; left is one byte below the number of edges
         give_back,  ///< return of `left`
         unreachable,
     };
@@ -122,6 +135,9 @@ struct Block {
     std::vector<Operation> operations{};
     Terminator terminator{};
     uint32_t loop_depth = 0;
+    double frequency = 1;     ///< executions for each call of the function, estimated
+    uint32_t loop_bound = 0;  ///< of a loop's header: most iterations each time it is entered; 0: ?
+    std::vector<uint32_t> parameter_sizes{};  ///< bytes of each value among `parameters`, in order
 };
 
 /// A variable in the function's static frame; its symbol is an address like any other.
@@ -138,6 +154,12 @@ struct Function {
     std::vector<Block> blocks{};      ///< the first is the entry; nothing branches to it
     std::vector<ByteInfo> bytes{};
     std::vector<FrameObject> frame{};
+    bool address_taken = false;  ///< may be called through a pointer
+    bool recursive = false;      ///< its calls that re-enter save the frame; no FrameObject
+    uint32_t stack_bytes = 0;    ///< variables on the real stack; of a recursive function
+    // Behind lower_calls(), for the flat parameters of blocks[0] and the bytes given back.
+    std::vector<Register> parameter_registers{};
+    std::vector<Register> result_registers{};
 };
 
 /// Bytes that stand in memory before the program starts.

@@ -11,17 +11,15 @@ namespace toolchain::codegen {
 
 namespace {
 
-constexpr std::array<const char*, 20> kOpcodeNames = {
-    "add",     "sub",      "and",     "or",   "xor",   "shl",  "shr",
-    "sar",     "sign",     "compare", "load", "store", "call", "call_indirect",
-    "port_in", "port_out", "ei",      "di",   "hlt",   "rim"};
+constexpr std::array<const char*, 23> kOpcodeNames = {
+    "add",  "sub",     "and",  "or",    "xor",  "shl",           "shr",          "sar",
+    "sign", "compare", "load", "store", "call", "call_indirect", "port_in",      "port_out",
+    "ei",   "di",      "hlt",  "rim",   "sim",  "nop",           "stack_address"};
 constexpr std::array<const char*, 6> kPredicateNames = {"eq",        "ne",   "below",
                                                         "not_below", "less", "not_less"};
 
 const char* name(Opcode opcode) {
-    const auto index = static_cast<std::size_t>(opcode);
-    if (index < kOpcodeNames.size()) return kOpcodeNames[index];
-    return opcode == Opcode::set_mask ? "sim" : "nop";
+    return kOpcodeNames[static_cast<std::size_t>(opcode)];
 }
 
 const char* name(Predicate predicate) {
@@ -85,6 +83,9 @@ std::string text(const Module& module, const Function& function, const Terminato
         case Terminator::Kind::branch:
             line = fmt::format("    if {} {} {}", name(end.predicate),
                                text(module, function, end.left), text(module, function, end.right));
+            break;
+        case Terminator::Kind::table:
+            line = fmt::format("    table {}", text(module, function, end.left));
             break;
         case Terminator::Kind::give_back:
             line = fmt::format("    return {}", text(module, function, end.left));

@@ -69,7 +69,8 @@ private:
     void check_edges(const Block& block) {
         using Kind = Terminator::Kind;
         const Kind kind = block.terminator.kind;
-        const std::size_t wanted = kind == Kind::jump ? 1 : kind == Kind::branch ? 2 : 0;
+        std::size_t wanted = kind == Kind::jump ? 1 : kind == Kind::branch ? 2 : 0;
+        if (kind == Kind::table) wanted = std::max<std::size_t>(1, block.terminator.edges.size());
         if (block.terminator.edges.size() != wanted) return fail("wrong number of edges");
         for (const Edge& edge : block.terminator.edges) {
             if (edge.target == 0 || edge.target >= function_.blocks.size()) {

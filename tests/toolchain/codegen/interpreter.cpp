@@ -106,9 +106,13 @@ std::vector<uint8_t> Interpreter::run(const Function& function,
         }
         if (end.kind == Terminator::Kind::unreachable)
             throw std::runtime_error("unreachable reached");
-        const bool first =
-            end.kind == Terminator::Kind::jump || holds(frame, end.predicate, end.left, end.right);
-        const Edge& edge = end.edges[first ? 0 : 1];
+        std::size_t way = 0;
+        if (end.kind == Terminator::Kind::branch) {
+            way = holds(frame, end.predicate, end.left, end.right) ? 0 : 1;
+        } else if (end.kind == Terminator::Kind::table) {
+            way = read(frame, end.left[0]);
+        }
+        const Edge& edge = end.edges.at(way);
         std::vector<uint8_t> values;
         for (const ByteId byte : edge.arguments) values.push_back(read(frame, byte));
         const Bytes& parameters = function.blocks[edge.target].parameters;
