@@ -1,0 +1,236 @@
+// recipes_compare.cpp - comparisons as flags, and as a byte that is 0 or 1.
+// Depends on   recipes.hpp.
+#include "toolchain/codegen/recipes.hpp"
+
+namespace toolchain::codegen {
+
+namespace {
+
+bool is_number(const Coder& coder, ByteId byte, uint8_t value) {
+    return coder.facts().constant(byte) && coder.facts().function.bytes[byte].constant == value;
+}
+
+bool all(const Coder& coder, const Bytes& bytes, uint8_t value) {
+    for (const ByteId byte : bytes) {
+        if (!is_number(coder, byte, value)) return false;
+    }
+    return true;
+}
+
+template <typename Action>
+void add_decision(std::vector<Decision>& ways, const Coder& start, Condition condition,
+                  Action action) {
+    Decision way{start, condition};
+    way.coder.items.clear();
+    action(way.coder);
+    way.coder.locks = 0;
+    if (!way.coder.failed) ways.push_back(std::move(way));
+}
+
+/// Loads a byte of the left operand into A for being destroyed.
+void take(Coder& coder, const Bytes& left, const Bytes& right, std::size_t at) {
+    coder.load(Register::a, left[at]);
+    const bool unread = occurs(left, left[at], at + 1) || occurs(right, left[at], at + 1);
+    coder.vacate(Register::a, !unread);
+}
+
+// -- Equality ------------------------------------------------------------------------------------
+
+/// Z and S of one byte.
+void add_tests(std::vector<Decision>& ways, const Coder& start, ByteId byte, Condition condition) {
+    if (start.state.tested == byte) {
+        add_decision(ways, start, condition, [](Coder&) {});
+        return;
+    }
+    add_decision(ways, start, condition, [&](Coder& coder) {
+        coder.load(Register::a, byte);
+        if (coder.failed) return;
+        coder.emit(0xB7);  // ORA A
+        coder.state.tested = byte;
+    });
+    const Register which = start.find(byte, 0x7F);
+    if (which == Register::flags) return;
+    add_decision(ways, start, condition, [&](Coder& coder) {
+        coder.emit(by_register(op::kInr, which));
+        coder.emit(by_register(op::kDcr, which));
+        coder.state.tested = byte;
+    });
+}
+
+void add_zero_test(std::vector<Decision>& ways, const Coder& start, const Bytes& value) {
+    if (value.size() == 1) return add_tests(ways, start, value[0], Condition::z);
+    // Begin with what is in A, or else with any byte.
+    for (std::size_t first = 0; first < value.size(); ++first) {
+        if (first > 0 && start.content(Register::a) != value[first]) continue;
+        add_decision(ways, start, Condition::z, [&](Coder& coder) {
+            coder.load(Register::a, value[first]);
+            coder.vacate(Register::a, value.size() == 1 || !occurs(value, value[first], first + 1));
+            for (std::size_t i = 0; i < value.size() && !coder.failed; ++i) {
+                if (i != first) alu_on_a(coder, alu::kOra, value[i]);
+            }
+            coder.set(Register::a, kNone);
+        });
+    }
+}
+
+// Byte by byte, leaving at the first difference. Nothing but A may be different at the last one.
+void add_stepwise_equal(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
+                        const Bytes& right, const Targets& targets) {
+    constexpr double kDiffers = 0.7;
+    for (const bool locked : {false, true}) {
+        add_decision(ways, start, Condition::z, [&](Coder& coder) {
+            if (left.size() > 1) coder.vacate(Register::a, true);
+            State first;
+            for (std::size_t i = 0; i < left.size() && !coder.failed; ++i) {
+                if (locked && i > 0) coder.locks = 0x3F;
+                coder.load(Register::a, left[i]);
+                if (coder.failed) return;
+                alu_on_a(coder, alu::kCmp, right[i]);
+                if (i + 1 == left.size()) break;
+                if (i == 0) first = coder.state;
+                coder.emit_jump(op::kJnz, targets.label_false, kDiffers);
+            }
+            if (left.size() == 1) return;
+            coder.set(Register::a, kNone);
+            coder.state.sum = {};
+            for (const Register which : kRegisters) {
+                if (which == Register::a) continue;
+                const ByteId now = coder.content(which);
+                if (now != first.content[static_cast<unsigned>(which)]) coder.failed = true;
+            }
+            if (!(coder.state.in_slot == first.in_slot)) coder.failed = true;
+        });
+    }
+}
+
+// -- Order ---------------------------------------------------------------------------------------
+
+void add_below(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
+               const Bytes& right) {
+    std::size_t first = 0;
+    while (first + 1 < right.size() && is_number(start, right[first], 0)) ++first;
+    add_decision(ways, start, Condition::c, [&](Coder& coder) {
+        const bool single = first + 1 == left.size();
+        for (std::size_t i = first; i < left.size() && !coder.failed; ++i) {
+            if (single) {
+                coder.load(Register::a, left[i]);
+                if (!coder.failed) alu_on_a(coder, alu::kCmp, right[i]);
+                return;
+            }
+            take(coder, left, right, i);
+            if (coder.failed) return;
+            alu_on_a(coder, i == first ? alu::kSub : alu::kSbb, right[i]);
+            coder.set(Register::a, kNone);
+        }
+    });
+}
+
+// Less if borrow, sign of left and sign of right differ in an odd number: RAR brings the borrow
+// to bit 7, XRA sets S.
+void add_less(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
+              const Bytes& right) {
+    const std::size_t top = left.size() - 1;
+    const auto sign_of_constant = [&](ByteId byte) {
+        return start.facts().constant(byte)
+                   ? static_cast<int>(start.facts().function.bytes[byte].constant >> 7)
+                   : -1;
+    };
+    const int right_sign = sign_of_constant(right[top]);
+    const int left_sign = sign_of_constant(left[top]);
+    const bool flip = right_sign == 1 || (right_sign < 0 && left_sign == 1);
+    std::size_t first = 0;
+    while (first < top && is_number(start, right[first], 0)) ++first;
+    add_decision(ways, start, flip ? Condition::p : Condition::m, [&](Coder& coder) {
+        for (std::size_t i = first; i < left.size() && !coder.failed; ++i) {
+            coder.load(Register::a, left[i]);
+            // The top bytes are read once more, for their signs.
+            const bool unread =
+                i == top || occurs(left, left[i], i + 1) || occurs(right, left[i], i + 1);
+            coder.vacate(Register::a, !unread);
+            if (coder.failed) return;
+            alu_on_a(coder, i == first ? alu::kSub : alu::kSbb, right[i]);
+            coder.set(Register::a, kNone);
+        }
+        if (coder.failed) return;
+        coder.emit(op::kRar);
+        if (left_sign < 0 || right_sign >= 0) alu_on_a(coder, alu::kXra, left[top]);
+        if (right_sign < 0) alu_on_a(coder, alu::kXra, right[top]);
+        coder.set(Register::a, kNone);
+    });
+}
+
+}  // namespace
+
+std::vector<Decision> decide(const Coder& start, Predicate predicate, const Bytes& left,
+                             const Bytes& right, const Targets& targets) {
+    std::vector<Decision> ways;
+    const bool negated = (static_cast<uint8_t>(predicate) & 1U) != 0;
+    const Targets ordered = negated ? Targets{targets.label_false, targets.label_true} : targets;
+    switch (negated ? inverse(predicate) : predicate) {
+        case Predicate::equal:
+            if (all(start, right, 0)) {
+                add_zero_test(ways, start, left);
+            } else if (all(start, left, 0)) {
+                add_zero_test(ways, start, right);
+            } else {
+                add_stepwise_equal(ways, start, left, right, ordered);
+                add_stepwise_equal(ways, start, right, left, ordered);
+            }
+            break;
+        case Predicate::below:
+            add_below(ways, start, left, right);
+            break;
+        default:
+            if (all(start, right, 0)) {
+                add_tests(ways, start, left.back(), Condition::m);
+            } else if (all(start, left, 0xFF)) {
+                add_tests(ways, start, right.back(), Condition::p);
+            } else {
+                add_less(ways, start, left, right);
+            }
+            break;
+    }
+    if (negated) {
+        for (Decision& way : ways) way.condition = inverse(way.condition);
+    }
+    return ways;
+}
+
+void add_compare(Ways& ways, const Coder& start, const Operation& operation,
+                 const RecipeContext& context) {
+    const Targets targets{context.label(), context.label()};
+    for (Decision& way :
+         decide(start, operation.predicate, operation.left, operation.right, targets)) {
+        Coder coder = std::move(way.coder);
+        const bool jumps = [&] {
+            for (const CodeItem& item : coder.items) {
+                if (item.operand.kind == CodeOperand::Kind::label) return true;
+            }
+            return false;
+        }();
+        coder.vacate(Register::a, true);
+        if (coder.failed) continue;
+        if (!jumps && (way.condition == Condition::c || way.condition == Condition::nc)) {
+            coder.emit(0x9F);  // SBB A
+            if (way.condition == Condition::c) {
+                coder.emit_number(op::kAluImmediate | alu::kAna << 3, 1);
+            } else {
+                coder.emit(by_register(op::kInr, Register::a));
+            }
+        } else {
+            const uint32_t end = context.label();
+            constexpr double kHalf = 0.5;
+            coder.emit_jump(jump_if(inverse(way.condition)), targets.label_false, kHalf);
+            coder.emit_label(targets.label_true);
+            coder.emit_number(by_register(op::kMvi, Register::a), 1);
+            coder.emit_jump(op::kJmp, end, 0);
+            coder.emit_label(targets.label_false);
+            coder.emit_number(by_register(op::kMvi, Register::a), 0);
+            coder.emit_label(end);
+        }
+        coder.set(Register::a, operation.results[0]);
+        ways.push_back(std::move(coder));
+    }
+}
+
+}  // namespace toolchain::codegen

@@ -1,0 +1,177 @@
+// simplify.cpp - equal constants get equal ids; operations and parameters nobody needs disappear.
+// Depends on   facts.hpp.
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "toolchain/codegen/facts.hpp"
+
+namespace toolchain::codegen {
+
+namespace {
+
+using Kind = ByteInfo::Kind;
+
+template <typename Action>
+void for_each_operand(Operation& operation, Action action) {
+    action(operation.left);
+    action(operation.right);
+    for (Bytes& argument : operation.arguments) action(argument);
+}
+
+template <typename Action>
+void for_each_operand(Terminator& end, Action action) {
+    action(end.left);
+    action(end.right);
+    for (Edge& edge : end.edges) action(edge.arguments);
+}
+
+/// One id for each constant and each part of an address.
+void intern_constants(Function& function) {
+    std::map<std::tuple<Kind, uint8_t, SymbolId, int32_t>, ByteId> known;
+    std::vector<ByteId> same(function.bytes.size());
+    for (ByteId byte = 0; byte < function.bytes.size(); ++byte) {
+        const ByteInfo& info = function.bytes[byte];
+        same[byte] = byte;
+        if (info.kind == Kind::computed || info.kind == Kind::parameter) continue;
+        same[byte] = known.try_emplace({info.kind, info.constant, info.symbol, info.offset}, byte)
+                         .first->second;
+    }
+    const auto rename = [&](Bytes& bytes) {
+        for (ByteId& byte : bytes) byte = same[byte];
+    };
+    for (Block& block : function.blocks) {
+        for (Operation& operation : block.operations) for_each_operand(operation, rename);
+        for_each_operand(block.terminator, rename);
+    }
+}
+
+bool has_effect(const Operation& operation) {
+    switch (operation.opcode) {
+        case Opcode::load:
+            return operation.is_volatile;
+        case Opcode::store:
+        case Opcode::call:
+        case Opcode::call_indirect:
+        case Opcode::port_in:
+        case Opcode::port_out:
+        case Opcode::enable_interrupts:
+        case Opcode::disable_interrupts:
+        case Opcode::halt:
+        case Opcode::read_mask:
+        case Opcode::set_mask:
+        case Opcode::no_operation:
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// Bytes that something with an effect depends on.
+class Needs {
+public:
+    explicit Needs(Function& function) : function_(function), needed_(function.bytes.size()) {
+        for (bool again = true; again;) {
+            changed_ = false;
+            for (auto block = function.blocks.rbegin(); block != function.blocks.rend(); ++block) {
+                visit(*block);
+            }
+            again = changed_;
+        }
+    }
+    [[nodiscard]] bool needed(ByteId byte) const { return needed_[byte]; }
+    [[nodiscard]] bool any(const Bytes& bytes) const {
+        return std::any_of(bytes.begin(), bytes.end(), [&](ByteId byte) { return needed_[byte]; });
+    }
+
+private:
+    void need(const Bytes& bytes, std::size_t count = SIZE_MAX) {
+        for (std::size_t i = 0; i < std::min(count, bytes.size()); ++i) {
+            if (!needed_[bytes[i]]) changed_ = needed_[bytes[i]] = true;
+        }
+    }
+    void visit(Block& block) {
+        need(block.terminator.left);
+        need(block.terminator.right);
+        for (const Edge& edge : block.terminator.edges) {
+            const Bytes& wanted = function_.blocks[edge.target].parameters;
+            for (std::size_t i = 0; i < wanted.size(); ++i) {
+                if (needed_[wanted[i]]) need({edge.arguments[i]});
+            }
+        }
+        for (auto at = block.operations.rbegin(); at != block.operations.rend(); ++at) {
+            if (!has_effect(*at) && !any(at->results)) continue;
+            // A carry goes up only: the bytes above the highest needed one do not matter.
+            std::size_t count = SIZE_MAX;
+            if (at->opcode == Opcode::add || at->opcode == Opcode::subtract ||
+                at->opcode == Opcode::shift_left) {
+                count = at->results.size();
+                while (count > 0 && !needed_[at->results[count - 1]]) --count;
+            }
+            need(at->left, count);
+            need(at->right, count);
+            for (const Bytes& argument : at->arguments) need(argument);
+        }
+    }
+
+    Function& function_;
+    std::vector<bool> needed_;
+    bool changed_ = false;
+};
+
+void shrink(Operation& operation, const Needs& needs) {
+    const bool from_top = operation.opcode == Opcode::add || operation.opcode == Opcode::subtract ||
+                          operation.opcode == Opcode::shift_left ||
+                          (operation.opcode == Opcode::load && !operation.is_volatile);
+    if (!from_top) return;
+    while (operation.results.size() > 1 && !needs.needed(operation.results.back())) {
+        operation.results.pop_back();
+        if (operation.opcode == Opcode::load) continue;
+        operation.left.pop_back();
+        if (!operation.right.empty()) operation.right.pop_back();
+    }
+}
+
+void drop_parameters(Block& block, const Needs& needs) {
+    std::vector<uint32_t> sizes;
+    std::size_t next = 0;
+    for (const uint32_t size : block.parameter_sizes) {
+        uint32_t kept = 0;
+        for (uint32_t i = 0; i < size && next < block.parameters.size(); ++i, ++next) {
+            if (needs.needed(block.parameters[next])) ++kept;
+        }
+        if (kept != 0) sizes.push_back(kept);
+    }
+    block.parameter_sizes = std::move(sizes);
+    std::erase_if(block.parameters, [&](ByteId byte) { return !needs.needed(byte); });
+}
+
+void drop_unneeded(Function& function) {
+    const Needs needs(function);
+    for (Block& block : function.blocks) {
+        std::erase_if(block.operations, [&](const Operation& operation) {
+            return !has_effect(operation) && !needs.any(operation.results);
+        });
+        for (Operation& operation : block.operations) shrink(operation, needs);
+        for (Edge& edge : block.terminator.edges) {
+            const Bytes& parameters = function.blocks[edge.target].parameters;
+            Bytes kept;
+            for (std::size_t i = 0; i < parameters.size(); ++i) {
+                if (needs.needed(parameters[i])) kept.push_back(edge.arguments[i]);
+            }
+            edge.arguments = std::move(kept);
+        }
+    }
+    for (std::size_t index = 1; index < function.blocks.size(); ++index) {
+        drop_parameters(function.blocks[index], needs);
+    }
+}
+
+}  // namespace
+
+void simplify(Function& function) {
+    intern_constants(function);
+    drop_unneeded(function);
+}
+
+}  // namespace toolchain::codegen
