@@ -9,6 +9,7 @@
 #include <llvm/IR/Module.h>
 
 #include "toolchain/ir/constants.hpp"
+#include "toolchain/ir/constructors.hpp"
 #include "toolchain/ir/selector.hpp"
 
 namespace toolchain::ir {
@@ -279,6 +280,7 @@ codegen::Module select(const llvm::Module& module) {
     for (const llvm::Function& function : module) {
         if (!function.isDeclaration()) result.functions.push_back(Selector(result, function).run());
     }
+    result.constructors = constructors_of(result, module);
     return result;
 }
 
