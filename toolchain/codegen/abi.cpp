@@ -96,23 +96,23 @@ std::string signature_text(std::span<const std::size_t> sizes, std::size_t resul
 }
 
 std::string arguments_name(const std::string& function) {
-    return function + ".args";
+    return function + "@args";
 }
 
 std::string result_name(const std::string& function) {
-    return function + ".result";
+    return function + "@result";
 }
 
 std::string shared_arguments_name(const std::string& signature) {
-    return "__args." + signature;
+    return "__args@" + signature;
 }
 
 std::string shared_result_name(const std::string& signature) {
-    return "__result." + signature;
+    return "__result@" + signature;
 }
 
 bool is_shared_name(const std::string& name) {
-    return name.starts_with("__args.") || name.starts_with("__result.");
+    return name.starts_with("__args@") || name.starts_with("__result@");
 }
 
 }  // namespace toolchain::codegen

@@ -33,7 +33,8 @@ struct ValuePlaces {
 /// "p2_1r4": arguments of 2 and 1 bytes, result of 4. Fits into a symbol.
 [[nodiscard]] std::string signature_text(std::span<const std::size_t> sizes, std::size_t result);
 
-/// Names of static memory for arguments and results that do not fit into registers.
+/// Names of static memory for arguments and results that do not fit into registers. No name in C
+/// has an @, so they meet no variable of the program (a static local of f is `f.name`).
 [[nodiscard]] std::string arguments_name(const std::string& function);
 [[nodiscard]] std::string result_name(const std::string& function);
 [[nodiscard]] std::string shared_arguments_name(const std::string& signature);

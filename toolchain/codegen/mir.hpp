@@ -157,7 +157,7 @@ struct Function {
     bool address_taken = false;  ///< may be called through a pointer
     SymbolId signature = kNone;  ///< sizes of arguments and result, if address_taken
     bool recursive = false;      ///< its calls that re-enter save the slots; its FrameObjects are
-                                 ///< `NAME.args`, `NAME.result`: read at once, so never saved
+                                 ///< `NAME@args`, `NAME@result`: read at once, so never saved
     uint32_t stack_bytes = 0;    ///< variables on the real stack; of a recursive function
     // Behind lower_calls(), for the flat parameters of blocks[0] and the bytes given back.
     std::vector<Register> parameter_registers{};

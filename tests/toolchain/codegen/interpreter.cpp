@@ -293,7 +293,7 @@ uint64_t Interpreter::call(const std::string& name, const std::vector<uint64_t>&
         // Behind lower_calls() what is no parameter any more is in memory.
         if (function->bytes[parameter[0]].kind != ByteInfo::Kind::parameter) {
             const auto size = static_cast<unsigned>(parameter.size());
-            set_cell(name + ".args", size, value, in_memory);
+            set_cell(name + "@args", size, value, in_memory);
             in_memory += size;
             continue;
         }
@@ -304,8 +304,8 @@ uint64_t Interpreter::call(const std::string& name, const std::vector<uint64_t>&
     uint64_t result = 0;
     const std::vector<uint8_t> returned = run(*function, bytes);
     for (const FrameObject& object : function->frame) {
-        if (module_.symbols[object.symbol] == name + ".result") {
-            return variable(name + ".result", object.size);
+        if (module_.symbols[object.symbol] == name + "@result") {
+            return variable(name + "@result", object.size);
         }
     }
     for (std::size_t i = returned.size(); i-- > 0;) result = result << 8 | returned[i];
