@@ -102,7 +102,7 @@ struct Operation {
     std::vector<Register> argument_registers{};
     std::vector<Register> result_registers{};
     RegisterSet clobbers = kAllRegisters;  ///< of a runtime routine; a function's are asked for
-    SymbolId signature = kNone;            ///< of an indirect call: which functions it may reach
+    SymbolId signature = kNone;            ///< of an indirect call: reaches functions with the same
     bool reenters = false;                 ///< may come back into this function while it is active
     uint32_t immediate16 = 0;              ///< of stack_address
 };
@@ -155,7 +155,9 @@ struct Function {
     std::vector<ByteInfo> bytes{};
     std::vector<FrameObject> frame{};
     bool address_taken = false;  ///< may be called through a pointer
-    bool recursive = false;      ///< its calls that re-enter save the frame; no FrameObject
+    SymbolId signature = kNone;  ///< sizes of arguments and result, if address_taken
+    bool recursive = false;      ///< its calls that re-enter save the slots; its FrameObjects are
+                                 ///< `NAME@args`, `NAME@result`: read at once, so never saved
     uint32_t stack_bytes = 0;    ///< variables on the real stack; of a recursive function
     // Behind lower_calls(), for the flat parameters of blocks[0] and the bytes given back.
     std::vector<Register> parameter_registers{};

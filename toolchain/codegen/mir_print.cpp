@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <string_view>
 
 #include "toolchain/codegen/mir.hpp"
 
@@ -50,6 +51,14 @@ std::string text(const Module& module, const Function& function, const Bytes& by
     return fmt::format("[{}]", fmt::join(parts, " "));
 }
 
+/// " in HL E": the registers of a call's arguments or results.
+std::string text(const char* word, const std::vector<Register>& registers) {
+    constexpr std::string_view kLetters = "BCDEHLFA";
+    std::string line;
+    for (const Register which : registers) line += kLetters[static_cast<std::size_t>(which)];
+    return line.empty() ? line : fmt::format(" {} {}", word, line);
+}
+
 std::string text(const Module& module, const Function& function, const Operation& operation) {
     std::string line = "    ";
     if (!operation.results.empty()) {
@@ -70,7 +79,12 @@ std::string text(const Module& module, const Function& function, const Operation
     for (const Bytes& argument : operation.arguments) {
         line += fmt::format(" {}", text(module, function, argument));
     }
+    line += text("in", operation.argument_registers);
+    line += text("out", operation.result_registers);
+    if (operation.reenters) line += " reenters";
     if (operation.immediate != 0) line += fmt::format(" #{}", operation.immediate);
+    if (operation.opcode == Opcode::stack_address)
+        line += fmt::format(" {}", operation.immediate16);
     return line + "\n";
 }
 
@@ -105,6 +119,9 @@ std::string text(const Module& module, const Function& function, const Terminato
 std::string print(const Module& module, const Function& function) {
     std::string result = fmt::format("function {}", module.symbols[function.symbol]);
     if (function.interrupt >= 0) result += fmt::format(" interrupt {}", function.interrupt);
+    result += text("in", function.parameter_registers);
+    result += text("out", function.result_registers);
+    if (function.recursive) result += fmt::format(" recursive, stack {}", function.stack_bytes);
     result += "\n";
     for (const FrameObject& object : function.frame) {
         result += fmt::format("  frame {} {}\n", module.symbols[object.symbol], object.size);

@@ -154,8 +154,11 @@ private:
             case Opcode::store:
                 fits = left == 2 && right > 0;
                 break;
-            case Opcode::call_indirect:
-                fits = left == 2;
+            case Opcode::call_indirect:  // behind lower_calls() the target is among the arguments
+                fits = left == 2 || (left == 0 && operation.argument_registers.size() >= 2);
+                break;
+            case Opcode::stack_address:
+                fits = results == 2;
                 break;
             default:
                 break;

@@ -50,6 +50,7 @@ struct Request {
     assembly::AddressRange rom = assembly::LinkOptions{}.rom;
     assembly::AddressRange ram = assembly::LinkOptions{}.ram;
     std::optional<uint32_t> stack_bytes{};  ///< nothing: the worst depth, see below
+    bool verbose = false;                   ///< tells the commands that are run
     unsigned jobs = 2;                      ///< front ends at a time
     /// Takes clang's messages and our warnings; default: standard error.
     std::function<void(std::string_view)> messages{};

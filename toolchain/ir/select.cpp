@@ -9,6 +9,7 @@
 #include <llvm/IR/Module.h>
 
 #include "toolchain/ir/constants.hpp"
+#include "toolchain/ir/constructors.hpp"
 #include "toolchain/ir/selector.hpp"
 
 namespace toolchain::ir {
@@ -100,7 +101,7 @@ void Selector::select_instruction(const llvm::Instruction& instruction) {
                 "a variable whose size is known only at run time has no place in a static frame");
         }
         const auto symbol = out_.intern(
-            fmt::format("{}.frame.{}", function_.getName().str(), result_.frame.size()));
+            fmt::format("{}@frame.{}", function_.getName().str(), result_.frame.size()));
         result_.frame.push_back({symbol, static_cast<uint32_t>(size->getFixedValue())});
         result = builder_.address(symbol, 0);
     } else if (const auto* extract = llvm::dyn_cast<llvm::ExtractValueInst>(&instruction)) {
@@ -279,6 +280,7 @@ codegen::Module select(const llvm::Module& module) {
     for (const llvm::Function& function : module) {
         if (!function.isDeclaration()) result.functions.push_back(Selector(result, function).run());
     }
+    result.constructors = constructors_of(result, module);
     return result;
 }
 

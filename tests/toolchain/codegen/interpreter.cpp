@@ -8,6 +8,16 @@ namespace codegen_test {
 
 using namespace toolchain::codegen;
 
+namespace {
+
+/// Behind lower_calls(): one string of arguments, each byte with its register.
+bool is_flat(const Operation& operation) {
+    return operation.arguments.size() == 1 &&
+           operation.arguments[0].size() == operation.argument_registers.size();
+}
+
+}  // namespace
+
 Interpreter::Interpreter(const Module& module) : module_(module) {
     uint16_t code = 0x0100;
     for (const Function& function : module.functions) {
@@ -15,6 +25,12 @@ Interpreter::Interpreter(const Module& module) : module_(module) {
         for (const FrameObject& object : function.frame) place(object.symbol, object.size);
     }
     for (const Variable& variable : module.variables) place(variable.symbol, variable.size);
+    constexpr uint32_t kLargestCell = 8;
+    for (SymbolId symbol = 0; symbol < module.symbols.size(); ++symbol) {
+        const std::string& name = module.symbols[symbol];
+        const bool is_cell = name.starts_with("__wide.") || name.ends_with(".cells");
+        if (is_cell) place(symbol, kLargestCell);
+    }
     for (const Variable& variable : module.variables) {
         uint16_t address = addresses_[variable.symbol];
         for (const Datum& datum : variable.initial) {
@@ -90,7 +106,16 @@ bool Interpreter::holds(const Frame& frame, Predicate predicate, const Bytes& le
 
 std::vector<uint8_t> Interpreter::run(const Function& function,
                                       const std::vector<uint8_t>& arguments) {
-    Frame frame{function, std::vector<uint8_t>(function.bytes.size())};
+    const auto stack = stack_;
+    stack_ = static_cast<uint16_t>(stack_ - function.stack_bytes);
+    Frame frame{function, std::vector<uint8_t>(function.bytes.size()), stack_};
+    std::vector<uint8_t> result = run_blocks(frame, arguments);
+    stack_ = stack;
+    return result;
+}
+
+std::vector<uint8_t> Interpreter::run_blocks(Frame& frame, const std::vector<uint8_t>& arguments) {
+    const Function& function = frame.function;
     std::size_t next = 0;
     for (const ByteId byte : function.blocks[0].parameters)
         frame.values[byte] = arguments.at(next++);
@@ -168,10 +193,15 @@ void Interpreter::execute(Frame& frame, const Operation& operation) {
                 memory[static_cast<uint16_t>(left + i)] = read(frame, operation.right[i]);
             }
             break;
+        case Opcode::stack_address:
+            set(frame, operation.results, frame.stack + operation.immediate16);
+            break;
         case Opcode::call:
+            if (is_flat(operation)) return call_flat(frame, operation);
             call_symbol(frame, operation, operation.symbol);
             break;
         case Opcode::call_indirect:
+            if (is_flat(operation)) return call_flat(frame, operation);
             for (const auto& [symbol, address] : addresses_) {
                 if (address == left && module_.find(symbol) != nullptr) {
                     call_symbol(frame, operation, symbol);
@@ -204,11 +234,7 @@ bool Interpreter::call_runtime(Frame& frame, const Operation& operation, const s
         return signed_number(frame, operation.arguments.at(i));
     };
     if (name == "__memcpy" || name == "__memmove") {
-        std::vector<uint8_t> bytes;
-        for (uint64_t i = 0; i < argument(2); ++i)
-            bytes.push_back(memory[static_cast<uint16_t>(argument(1) + i)]);
-        for (uint64_t i = 0; i < bytes.size(); ++i)
-            memory[static_cast<uint16_t>(argument(0) + i)] = bytes[i];
+        copy_block(argument(0), argument(1), argument(2));
         return true;
     }
     if (name == "__memset") {
@@ -248,19 +274,40 @@ bool Interpreter::call_runtime(Frame& frame, const Operation& operation, const s
     return true;
 }
 
+void Interpreter::copy_block(uint64_t to, uint64_t from, uint64_t count) {
+    std::vector<uint8_t> bytes;
+    for (uint64_t i = 0; i < count; ++i) bytes.push_back(memory[static_cast<uint16_t>(from + i)]);
+    for (uint64_t i = 0; i < count; ++i) memory[static_cast<uint16_t>(to + i)] = bytes[i];
+}
+
 uint64_t Interpreter::call(const std::string& name, const std::vector<uint64_t>& arguments) {
     const auto symbol = module_.symbol_ids.find(name);
     const Function* function =
         symbol == module_.symbol_ids.end() ? nullptr : module_.find(symbol->second);
     if (function == nullptr) throw std::runtime_error("no function " + name);
     std::vector<uint8_t> bytes;
+    uint32_t in_memory = 0;
     for (std::size_t i = 0; i < function->parameters.size(); ++i) {
-        for (std::size_t k = 0; k < function->parameters[i].size(); ++k) {
-            bytes.push_back(static_cast<uint8_t>(arguments.at(i) >> 8 * k));
+        const Bytes& parameter = function->parameters[i];
+        const uint64_t value = arguments.at(i);
+        // Behind lower_calls() what is no parameter any more is in memory.
+        if (function->bytes[parameter[0]].kind != ByteInfo::Kind::parameter) {
+            const auto size = static_cast<unsigned>(parameter.size());
+            set_cell(name + "@args", size, value, in_memory);
+            in_memory += size;
+            continue;
+        }
+        for (std::size_t k = 0; k < parameter.size(); ++k) {
+            bytes.push_back(static_cast<uint8_t>(value >> 8 * k));
         }
     }
     uint64_t result = 0;
     const std::vector<uint8_t> returned = run(*function, bytes);
+    for (const FrameObject& object : function->frame) {
+        if (module_.symbols[object.symbol] == name + "@result") {
+            return variable(name + "@result", object.size);
+        }
+    }
     for (std::size_t i = returned.size(); i-- > 0;) result = result << 8 | returned[i];
     return result;
 }

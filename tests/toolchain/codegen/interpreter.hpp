@@ -1,5 +1,10 @@
 // interpreter.hpp - executes the back end's representation on the host, as the oracle between LLVM
-// IR and machine code. Depends on   toolchain/codegen/mir.hpp.
+// IR and machine code.
+// Depends on   toolchain/codegen/mir.hpp.
+// Calls        before lower_calls() by value; behind it through registers, cells and memory, so
+// that
+//              a caller and a callee who disagree give a wrong result. Runtime routines do what
+//              docs/spec/runtime.md says; what they clobber becomes garbage.
 #pragma once
 
 #include <array>
@@ -31,6 +36,7 @@ private:
     struct Frame {
         const Function& function;
         std::vector<uint8_t> values;
+        uint16_t stack = 0;  ///< address of its variables on the stack
     };
 
     void place(toolchain::codegen::SymbolId symbol, uint32_t size);
@@ -39,15 +45,32 @@ private:
     int64_t signed_number(const Frame& frame, const Bytes& bytes) const;
     static void set(Frame& frame, const Bytes& bytes, uint64_t value);
     std::vector<uint8_t> run(const Function& function, const std::vector<uint8_t>& arguments);
+    std::vector<uint8_t> run_blocks(Frame& frame, const std::vector<uint8_t>& arguments);
     void execute(Frame& frame, const Operation& operation);
     bool holds(const Frame& frame, toolchain::codegen::Predicate predicate, const Bytes& left,
                const Bytes& right) const;
     void call_symbol(Frame& frame, const Operation& operation, toolchain::codegen::SymbolId symbol);
     bool call_runtime(Frame& frame, const Operation& operation, const std::string& name);
+    void copy_block(uint64_t to, uint64_t from, uint64_t count);
+
+    // Behind lower_calls().
+    void call_flat(Frame& frame, const Operation& operation);
+    void enter_flat(const Function& callee);
+    [[nodiscard]] uint64_t registers(const char* letters) const;
+    void set_registers(const char* letters, uint64_t value);
+    [[nodiscard]] uint64_t cell(const std::string& name, unsigned size) const;
+    void set_cell(const std::string& name, unsigned size, uint64_t value, unsigned offset = 0);
+    bool routine(const std::string& name);
+    bool divide_routine(const std::string& name);
+    bool shift_routine(const std::string& name);
+    bool wide_routine(const std::string& name);
+    bool block_routine(const std::string& name);
 
     const toolchain::codegen::Module& module_;
     std::map<toolchain::codegen::SymbolId, uint16_t> addresses_;
     uint16_t next_ = 0x8000;
+    uint16_t stack_ = 0xFF00;
+    std::array<uint8_t, 8> registers_{};  ///< by toolchain::codegen::Register
 };
 
 }  // namespace codegen_test

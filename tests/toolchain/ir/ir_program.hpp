@@ -13,6 +13,7 @@
 #include <string>
 
 #include "tests/toolchain/codegen/interpreter.hpp"
+#include "toolchain/codegen/lower_calls.hpp"
 #include "toolchain/codegen/mir.hpp"
 #include "toolchain/ir/prepare.hpp"
 #include "toolchain/ir/select.hpp"
@@ -44,6 +45,18 @@ inline toolchain::codegen::Module to_mir(const std::string& text) {
         llvm::parseAssemblyString(kHead + text, problem, context);
     if (!module) throw std::runtime_error(problem.getMessage().str());
     return to_mir(*module);
+}
+
+/// The same behind lower_calls(): calls through registers, narrow runtime routines.
+inline toolchain::codegen::Module lowered(toolchain::codegen::Module mir) {
+    toolchain::codegen::lower_calls(mir);
+    for (const toolchain::codegen::Function& function : mir.functions) {
+        const std::string problem = verify(function);
+        if (!problem.empty()) {
+            throw std::runtime_error(mir.symbols[function.symbol] + ", lowered: " + problem);
+        }
+    }
+    return mir;
 }
 
 }  // namespace ir_test

@@ -58,6 +58,10 @@ TEST_P(Kernels, GivesItsChecksum) {
     codegen_test::Interpreter interpreter(mir);
     interpreter.call("kernel");
     EXPECT_EQ(interpreter.variable("ksum", 4), kernel.checksum);
+    const auto lowered = ir_test::lowered(mir);
+    codegen_test::Interpreter behind_lowering(lowered);
+    behind_lowering.call("kernel");
+    EXPECT_EQ(behind_lowering.variable("ksum", 4), kernel.checksum);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tests/toolchain/ir/ir_program.hpp"
@@ -60,10 +62,11 @@ APInt expected(const std::string& operation, const APInt& left, const APInt& rig
     return left.ashr(right);
 }
 
-class SelectBinary : public testing::TestWithParam<std::string> {};
+/// Operation, and whether the module goes through lower_calls().
+class SelectBinary : public testing::TestWithParam<std::tuple<std::string, bool>> {};
 
 TEST_P(SelectBinary, AgreesForEveryWidthAndCorner) {
-    const std::string& operation = GetParam();
+    const auto& [operation, lower] = GetParam();
     std::set<std::string> functions;  // equal corners of narrow widths make equal functions
     for (const unsigned bits : kWidths) {
         functions.insert(
@@ -78,7 +81,8 @@ TEST_P(SelectBinary, AgreesForEveryWidthAndCorner) {
                             bits, right.getZExtValue(), operation, right.getSExtValue()));
         }
     }
-    const auto mir = to_mir(fmt::format("{}", fmt::join(functions, "")));
+    auto mir = to_mir(fmt::format("{}", fmt::join(functions, "")));
+    if (lower) mir = ir_test::lowered(std::move(mir));
     Interpreter interpreter(mir);
     for (const unsigned bits : kWidths) {
         for (const APInt& left : corners(bits)) {
@@ -97,9 +101,14 @@ TEST_P(SelectBinary, AgreesForEveryWidthAndCorner) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Operations, SelectBinary,
-                         testing::Values("add", "sub", "mul", "and", "or", "xor", "udiv", "urem",
-                                         "sdiv", "srem", "shl", "lshr", "ashr"),
-                         [](const auto& test) { return test.param; });
+                         testing::Combine(testing::Values("add", "sub", "mul", "and", "or", "xor",
+                                                          "udiv", "urem", "sdiv", "srem", "shl",
+                                                          "lshr", "ashr"),
+                                          testing::Bool()),
+                         [](const auto& test) {
+                             return std::get<0>(test.param) +
+                                    (std::get<1>(test.param) ? "_lowered" : "");
+                         });
 
 TEST(Select, ComparisonsAgree) {
     const std::vector<std::pair<std::string, bool (*)(const APInt&, const APInt&)>> predicates = {

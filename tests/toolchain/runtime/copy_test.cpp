@@ -208,5 +208,18 @@ TEST(Copy, JumpIndexReachesAllEntries) {
     EXPECT_EQ(jump.worst_t() - kRetT, runtime().routine("__jumpindex").worst_t);
 }
 
+TEST(CallHl, GoesToHlAndReturnsToTheCaller) {
+    constexpr uint16_t kRoutine = 0x7000;
+    runtime().write(kRoutine, 3, 0xC94206);  // MVI B,42H; RET
+    const Registers in = {.a = 1, .bc = 0x0304, .de = 0x0506, .hl = kRoutine};
+    const Registers out = runtime().call(runtime().address("__callhl"), in);
+    EXPECT_EQ(out.bc, 0x4204);
+    EXPECT_EQ(out.a, in.a);
+    EXPECT_EQ(out.de, in.de);
+    EXPECT_EQ(out.hl, in.hl);
+    constexpr unsigned kRoutineT = 7 + 10;
+    EXPECT_EQ(runtime().last_t() - kRoutineT, runtime().routine("__callhl").worst_t);
+}
+
 }  // namespace
 }  // namespace runtime_test

@@ -19,7 +19,7 @@ namespace {
 
 using namespace toolchain::assembly;
 
-constexpr std::array kFiles = {"multiply", "divide", "shift", "copy", "wide"};
+constexpr std::array kFiles = {"multiply", "divide", "shift", "copy", "wide", "call"};
 constexpr uint16_t kHalt = 0x0000;  // where routines return to
 constexpr uint16_t kCode = 0x0100;
 constexpr uint16_t kStack = 0xFF00;
