@@ -113,6 +113,9 @@ private:
             for (Coder& way : translate(start, operation, setting_.recipes)) {
                 way.store_wanted(operation.results);
                 if (way.failed) continue;
+                if (!way.complete()) {
+                    continue;
+                }
                 for (CodeItem& item : way.items) place(item, operation.place);
                 links_.push_back({candidate.code, std::move(way.items)});
                 way.items.clear();
@@ -285,6 +288,9 @@ private:
         start.position = static_cast<uint32_t>(block_.operations.size());
         for (const Decision& decision :
              decide(start, end.predicate, end.left, end.right, targets)) {
+            if (!decision.coder.complete()) {
+                continue;
+            }
             arrange(candidate, decision, targets);
         }
     }
@@ -334,7 +340,7 @@ private:
         coder.emit(op::kJmp,
                    {CodeOperand::Kind::symbol, CodeOperand::Part::word, setting_.jump_index, 0});
         coder.forget(static_cast<RegisterSet>(set_of(Register::a) | set_of(Pair::hl)));
-        coder.locks = 0;
+        coder.release();
         std::vector<CodeItem> items = coder.items;
         std::vector<CodeItem> cold;
         double cost = coder.cost + 80;  // of __jumpindex

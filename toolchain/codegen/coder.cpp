@@ -75,10 +75,24 @@ bool Coder::needed(ByteId byte, bool after) const {
     return after ? uses.back() > position : uses.back() >= position;
 }
 
-bool Coder::only_copy(Register which, bool after) const {
+bool Coder::only_copy(Register which, bool after, RegisterSet lost) const {
     const ByteId byte = content(which);
     if (!needed(byte, after) || in_slot(byte)) return false;
-    return find(byte, static_cast<RegisterSet>(~set_of(which))) == Register::flags;
+    return find(byte, static_cast<RegisterSet>(~(set_of(which) | lost | doomed))) ==
+           Register::flags;
+}
+
+bool Coder::complete() const {
+    for (uint32_t number = 0; number < block_->relevant.size(); ++number) {
+        const std::vector<uint32_t>& uses = block_->uses[number];
+        if (uses.empty() || uses.back() <= position || block_->made[number] > position + 1) {
+            continue;
+        }
+        if (!state.in_slot.test(number) && find(block_->relevant[number]) == Register::flags) {
+            return false;
+        }
+    }
+    return true;
 }
 
 Base Coder::sum_in(Pair pair) const {
@@ -93,6 +107,7 @@ Base Coder::sum_in(Pair pair) const {
 void Coder::set(Register which, ByteId byte) {
     if (byte != kNone && facts_->undefined(byte)) byte = kNone;
     state.content[static_cast<unsigned>(which)] = byte;
+    doomed &= static_cast<RegisterSet>(~set_of(which));
     if (which != Register::a) state.sum[static_cast<unsigned>(which) / 2] = {};
 }
 

@@ -67,6 +67,7 @@ public:
     bool failed = false;            ///< this way leads nowhere
     uint32_t position = 0;          ///< of the operation that is translated
     RegisterSet locks = 0;          ///< registers that hold what the operation needs
+    RegisterSet doomed = 0;         ///< vacated: written next, what they still hold is no copy
     /// On an edge: what is still needed, by local number; replaces the uses of the block.
     const std::vector<uint8_t>* edge_needs = nullptr;
 
@@ -95,8 +96,10 @@ public:
     /// Used by this operation or behind it; `after`: behind it only.
     [[nodiscard]] bool needed(ByteId byte, bool after) const;
     [[nodiscard]] uint32_t next_use(ByteId byte) const;
-    /// Would the byte be lost with this register?
-    [[nodiscard]] bool only_copy(Register which, bool after) const;
+    /// Would the byte be lost with this register, those of `lost` and the doomed ones?
+    [[nodiscard]] bool only_copy(Register which, bool after, RegisterSet lost = 0) const;
+    /// Is everything that is needed behind this operation in a register or slot?
+    [[nodiscard]] bool complete() const;
     [[nodiscard]] Base sum_in(Pair pair) const;
     [[nodiscard]] uint32_t local(ByteId byte) const { return block_->local.at(byte); }
 
@@ -111,10 +114,14 @@ public:
     // -- Moving values. All of them keep what is needed and not locked, or fail. -----------------
     void lock(Register which) { locks |= set_of(which); }
     void lock(Pair pair) { locks |= set_of(pair); }
+    /// The operation is done: nothing is reserved any more.
+    void release() { locks = doomed = 0; }
     void unlock(RegisterSet which) { locks &= static_cast<RegisterSet>(~which); }
     /// Makes a register free to be written. @param after  operands of this operation may be lost
     void vacate(Register which, bool after = false);
     void vacate(Pair pair, bool after = false);
+    /// The same without exchanging pairs: the value is also still there.
+    void copy_out(Pair pair, bool after_low, bool after_high);
     /// Saves what is needed behind this operation from registers that it destroys.
     void save_from(RegisterSet destroyed);
     void load(Register which, ByteId byte);

@@ -27,7 +27,7 @@ CodeOperand operand_of(const ByteInfo& info) {
 }  // namespace
 
 bool Coder::free_now(Register which) const {
-    return !locked(which) && !needed(content(which), false);
+    return !locked(which) && (doomed & set_of(which)) == 0 && !needed(content(which), false);
 }
 
 Register Coder::free_register(ByteId byte, RegisterSet avoid) const {
@@ -59,8 +59,9 @@ void Coder::vacate(Register which, bool after) {
         failed = true;
         return;
     }
+    doomed |= set_of(which);
     if (!only_copy(which, after)) return;
-    const Register to = free_register(content(which), set_of(which));
+    const Register to = free_register(content(which), 0);
     if (to == Register::flags) {
         spill(which);
         return;
@@ -76,7 +77,7 @@ void Coder::vacate(Pair pair, bool after) {
         failed = true;
         return;
     }
-    const bool both = only_copy(low, after) && only_copy(high, after);
+    const bool both = only_copy(low, after, set_of(pair)) && only_copy(high, after, set_of(pair));
     if (both && pair != Pair::bc) {
         const Pair other = pair == Pair::hl ? Pair::de : Pair::hl;
         if (free_now(low_of(other)) && free_now(high_of(other))) {
@@ -84,26 +85,32 @@ void Coder::vacate(Pair pair, bool after) {
             std::swap(state.sum[1], state.sum[2]);
             std::swap(state.content[2], state.content[4]);
             std::swap(state.content[3], state.content[5]);
+            doomed |= set_of(pair);
             return;
         }
         const bool room = free_now(Register::b) && free_now(Register::c);
         if (!room && edge_needs == nullptr && pair == Pair::hl &&
             facts_->adjacent(content(low), content(high))) {
             store(pair);
+            doomed |= set_of(pair);
             return;
         }
     }
-    vacate(low, after);
-    locks |= set_of(low);  // what moves out of the other half must not come here
-    vacate(high, after);
-    unlock(set_of(low));
+    copy_out(pair, after, after);
+}
+
+// Neither half may move into the other, and what the other half holds is no copy.
+void Coder::copy_out(Pair pair, bool after_low, bool after_high) {
+    doomed |= set_of(pair);
+    vacate(low_of(pair), after_low);
+    if (!failed) vacate(high_of(pair), after_high);
 }
 
 void Coder::save_from(RegisterSet destroyed) {
     const RegisterSet before = locks;
     locks |= destroyed;
     for (const Register which : kRegisters) {
-        if ((destroyed & set_of(which)) == 0 || !only_copy(which, true)) continue;
+        if ((destroyed & set_of(which)) == 0 || !only_copy(which, true, destroyed)) continue;
         const Register to = free_register(content(which), destroyed);
         if (to != Register::flags) {
             emit(mov(to, which));
@@ -277,19 +284,17 @@ bool Coder::load_near(Pair pair, const Base& wanted) {
 }
 
 void Coder::load_word_from_slot(Pair pair, ByteId low, ByteId high) {
+    if (pair != Pair::bc || (free_now(Register::h) && free_now(Register::l))) vacate(pair);
+    if (failed) return;
     const bool hl_free = free_now(Register::h) && free_now(Register::l);
     if (pair == Pair::hl) {
-        vacate(pair);
         emit(op::kLhld, slot(low));
     } else if (pair == Pair::de) {
-        vacate(pair);
-        if (failed) return;
         if (!hl_free) emit(op::kXchg);
         emit(op::kLhld, slot(low));
         emit(op::kXchg);
         if (hl_free) set(Pair::hl, kNone, kNone);
     } else if (hl_free) {
-        vacate(pair);
         emit(op::kLhld, slot(low));
         set(Pair::hl, low, high);
         emit(mov(Register::c, Register::l));

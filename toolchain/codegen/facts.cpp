@@ -258,6 +258,7 @@ private:
             if (added) {
                 facts.relevant.push_back(byte);
                 facts.uses.emplace_back();
+                facts.made.push_back(0);
             }
             return at->second;
         };
@@ -270,7 +271,9 @@ private:
         for (const ByteId byte : block.parameters) (void)number(byte);
         for (uint32_t position = 0; position < count; ++position) {
             for_each_use(block.operations[position], [&](ByteId byte) { use_at(byte, position); });
-            for (const ByteId byte : block.operations[position].results) (void)number(byte);
+            for (const ByteId byte : block.operations[position].results) {
+                facts.made[number(byte)] = position + 1;
+            }
         }
         for (const ByteId byte : block.terminator.left) use_at(byte, count);
         for (const ByteId byte : block.terminator.right) use_at(byte, count);
@@ -287,7 +290,8 @@ private:
         for (std::size_t index = 0; index < blocks().size(); ++index) {
             const Terminator& end = blocks()[index].terminator;
             std::vector<double>& result = facts_.blocks[index].edge_probability;
-            result.assign(end.edges.size(), end.edges.empty() ? 1 : 1.0 / static_cast<double>(end.edges.size()));
+            result.assign(end.edges.size(),
+                          end.edges.empty() ? 1 : 1.0 / static_cast<double>(end.edges.size()));
             if (end.kind != Terminator::Kind::branch) continue;
             const double own = std::max(blocks()[index].frequency, 1e-9);
             for (std::size_t i = 0; i < 2; ++i) {

@@ -51,6 +51,7 @@ struct BlockFacts {
     std::vector<ByteId> relevant{};             ///< every byte that matters here, by local number
     std::map<ByteId, uint32_t> local{};         ///< its number
     std::vector<std::vector<uint32_t>> uses{};  ///< by local number, ascending
+    std::vector<uint32_t> made{};  ///< by local number: 0 at the entry, else operation + 1
     std::vector<double> edge_probability{};
     std::vector<uint32_t> predecessors{};
     uint32_t end = 0;  ///< position of what successors need

@@ -44,7 +44,7 @@ void add_way(Ways& ways, const Coder& start, Action action) {
     Coder coder = start;
     coder.items.clear();
     action(coder);
-    coder.locks = 0;
+    coder.release();
     if (!coder.failed) ways.push_back(std::move(coder));
 }
 

@@ -46,6 +46,14 @@ void make_room(Coder& coder, Register which, const Bytes& left, const Bytes& rig
     coder.vacate(which, !unread);
 }
 
+void make_room(Coder& coder, Pair pair, const Bytes& left, const Bytes& right, std::size_t from) {
+    const auto unread = [&](Register which) {
+        const ByteId there = coder.content(which);
+        return there != kNone && (occurs(left, there, from) || occurs(right, there, from));
+    };
+    coder.copy_out(pair, !unread(low_of(pair)), !unread(high_of(pair)));
+}
+
 struct Chain {
     unsigned first;
     unsigned next;
@@ -107,11 +115,8 @@ void add_steps_of_word(Ways& ways, const Coder& start, const Operation& operatio
         const int distance = static_cast<int16_t>(wanted.delta - have.delta);
         if (have.same_base(wanted) && std::abs(distance) <= kMost) {
             add_way(ways, start, [&](Coder& coder) {
-                coder.vacate(pair, true);
-                if (coder.failed || !coder.sum_in(pair).same_base(wanted)) {
-                    coder.failed = true;
-                    return;
-                }
+                coder.copy_out(pair, true, true);
+                if (coder.failed) return;
                 for (int i = 0; i < std::abs(distance); ++i) {
                     coder.emit(by_pair(distance > 0 ? op::kInx : op::kDcx, pair));
                 }
@@ -120,12 +125,8 @@ void add_steps_of_word(Ways& ways, const Coder& start, const Operation& operatio
         } else if (std::abs(step) <= kMost) {
             add_way(ways, start, [&](Coder& coder) {
                 coder.load(pair, operation.left[0], operation.left[1]);
-                coder.vacate(pair, true);
+                coder.copy_out(pair, true, true);
                 if (coder.failed) return;
-                if (!coder.holds(pair, operation.left[0], operation.left[1])) {
-                    coder.failed = true;  // vacating exchanged it
-                    return;
-                }
                 for (int i = 0; i < std::abs(step); ++i) {
                     coder.emit(by_pair(step > 0 ? op::kInx : op::kDcx, pair));
                 }
@@ -158,10 +159,7 @@ void dad_word(Coder& coder, const Bytes& left, const Bytes& right, std::size_t a
         coder.unlock(set_of(Pair::hl));
         coder.lock(other);
     }
-    make_room(coder, Register::l, left, right, at + 2);
-    coder.lock(Register::l);
-    make_room(coder, Register::h, left, right, at + 2);
-    coder.unlock(set_of(Pair::hl));
+    make_room(coder, Pair::hl, left, right, at + 2);
     coder.unlock(set_of(other));
     if (coder.failed || !word_in(left, at, coder, Pair::hl) ||
         (!same && !word_in(right, at, coder, other))) {
@@ -210,9 +208,7 @@ void add_byte_to_word(Ways& ways, const Coder& start, const Operation& operation
                 coder.lock(Register::a);
                 coder.set(Register::a, operation.results[0]);
                 coder.unlock(set_of(pair));
-                coder.vacate(low_of(pair), true);
-                coder.lock(low_of(pair));
-                coder.vacate(high_of(pair), true);
+                coder.copy_out(pair, true, true);
                 if (coder.failed || coder.content(high_of(pair)) != word[1]) {
                     coder.failed = true;
                     return;
@@ -247,8 +243,7 @@ void add_long_dads(Ways& ways, const Coder& start, const Operation& operation,
             const Pair pair = keep == 1 ? Pair::de : Pair::bc;
             kept = set_of(pair);
             coder.lock(Pair::hl);
-            make_room(coder, low_of(pair), left, right, 2);
-            make_room(coder, high_of(pair), left, right, 2);
+            make_room(coder, pair, left, right, 2);
             coder.unlock(set_of(Pair::hl));
             if (coder.failed) return;
             coder.emit(mov(low_of(pair), Register::l));
@@ -262,10 +257,7 @@ void add_long_dads(Ways& ways, const Coder& start, const Operation& operation,
         const Pair second = kept == set_of(Pair::de) ? Pair::bc : Pair::de;
         if (nothing) {
             coder.load(Pair::hl, left[2], left[3]);
-            coder.vacate(Register::l, true);
-            coder.lock(Register::l);
-            coder.vacate(Register::h, true);
-            coder.unlock(set_of(Register::l));
+            coder.copy_out(Pair::hl, true, true);
             if (!word_in(left, 2, coder, Pair::hl)) coder.failed = true;
         } else {
             dad_word(coder, left, right, 2, second, false);

@@ -127,13 +127,17 @@ CodeOperand symbol_operand(SymbolId symbol) {
 std::vector<Pair> pairs_at_risk(const Coder& coder, RegisterSet destroyed) {
     std::vector<Pair> result;
     for (const Pair pair : kPairs) {
-        const bool low =
-            (destroyed & set_of(low_of(pair))) != 0 && coder.only_copy(low_of(pair), true);
-        const bool high =
-            (destroyed & set_of(high_of(pair))) != 0 && coder.only_copy(high_of(pair), true);
+        const bool low = (destroyed & set_of(low_of(pair))) != 0 &&
+                         coder.only_copy(low_of(pair), true, destroyed);
+        const bool high = (destroyed & set_of(high_of(pair))) != 0 &&
+                          coder.only_copy(high_of(pair), true, destroyed);
         if (low || high) result.push_back(pair);
     }
     return result;
+}
+
+void lock_wanted(Coder& coder, const Operation& operation) {
+    for (const Register which : operation.argument_registers) coder.lock(which);
 }
 
 void call_with_slots(Coder& coder, const Operation& operation, RegisterSet destroyed) {
@@ -142,9 +146,13 @@ void call_with_slots(Coder& coder, const Operation& operation, RegisterSet destr
         coder.failed = true;
         return;
     }
-    // An argument may have been moved where the call destroys it: it is in its slot by then.
+    // Bringing may have moved something to where the call destroys it.
+    lock_wanted(coder, operation);
+    coder.save_from(destroyed);
     for (const Register which : kRegisters) {
-        if ((destroyed & set_of(which)) != 0 && coder.only_copy(which, true)) coder.failed = true;
+        if ((destroyed & set_of(which)) != 0 && coder.only_copy(which, true, destroyed)) {
+            coder.failed = true;
+        }
     }
     coder.emit(op::kCall, symbol_operand(operation.symbol));
     finish_call(coder, operation, destroyed);
@@ -174,9 +182,11 @@ void call_with_stack(Coder& coder, const Operation& operation, RegisterSet destr
         coder.failed = true;
         return;
     }
-    // Bringing may have moved what was not pushed into what the call destroys.
+    lock_wanted(coder, operation);
+    coder.save_from(rest);
+    // What was not pushed must not be where the call destroys it.
     for (const Register which : kRegisters) {
-        if ((destroyed & set_of(which)) == 0 || !coder.only_copy(which, true)) continue;
+        if ((destroyed & set_of(which)) == 0 || !coder.only_copy(which, true, destroyed)) continue;
         bool pushed = false;
         for (const auto& [pair, bytes] : kept) {
             pushed = pushed || bytes[0] == coder.content(which) || bytes[1] == coder.content(which);
@@ -201,7 +211,7 @@ void call_that_reenters(Coder& coder, const Operation& operation) {
         saved.push_back(byte);
     }
     for (const Register which : kRegisters) {
-        if (coder.only_copy(which, true)) coder.failed = true;
+        if (coder.only_copy(which, true, kAllRegisters)) coder.failed = true;
     }
     if (coder.failed) return;
     // A goes onto the stack with the flags; arguments are fetched again from slots or registers.

@@ -23,7 +23,7 @@ void add_decision(std::vector<Decision>& ways, const Coder& start, Condition con
     Decision way{start, condition};
     way.coder.items.clear();
     action(way.coder);
-    way.coder.locks = 0;
+    way.coder.release();
     if (!way.coder.failed) ways.push_back(std::move(way));
 }
 
@@ -229,6 +229,7 @@ void add_compare(Ways& ways, const Coder& start, const Operation& operation,
             coder.emit_label(end);
         }
         coder.set(Register::a, operation.results[0]);
+        coder.release();
         ways.push_back(std::move(coder));
     }
 }

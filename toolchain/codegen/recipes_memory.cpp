@@ -115,8 +115,7 @@ void load_through(Coder& coder, const Operation& operation, const Places& places
     coder.load(pair, address[0], address[1]);
     const bool over = overlaps(places, pair);
     if (size > 1 || over) {
-        coder.vacate(pair, true);
-        if (!coder.failed && !coder.holds(pair, address[0], address[1])) coder.failed = true;
+        coder.copy_out(pair, true, true);
     }
     coder.lock(pair);
     for (std::size_t i = 0; i < size && !coder.failed; ++i) {
@@ -217,9 +216,7 @@ void store_through(Coder& coder, const Operation& operation, Pair pair, Register
     coder.load(pair, address[0], address[1]);
     if (value.size() > 1) {
         // The address may itself be stored: its bytes are read before they change, or kept.
-        const bool unread = occurs(value, address[0]) || occurs(value, address[1]);
-        coder.vacate(pair, !unread);
-        if (!coder.failed && !coder.holds(pair, address[0], address[1])) coder.failed = true;
+        coder.copy_out(pair, !occurs(value, address[0]), !occurs(value, address[1]));
     }
     coder.lock(pair);
     for (std::size_t i = 0; i < value.size() && !coder.failed; ++i) {

@@ -55,26 +55,21 @@ void add_byte_shifts(Ways& ways, const Coder& start, const Operation& operation)
 
 // -- To the left ---------------------------------------------------------------------------------
 
+/// Loads a word into HL for being destroyed.
+void take_hl(Coder& coder, ByteId low, ByteId high) {
+    coder.load(Pair::hl, low, high);
+    coder.copy_out(Pair::hl, true, true);
+    if (!coder.holds(Pair::hl, low, high)) coder.failed = true;
+}
+
 void add_left_word(Ways& ways, const Coder& start, const Operation& operation) {
     const Bytes& left = operation.left;
     add_way(ways, start, [&](Coder& coder) {
-        coder.load(Pair::hl, left[0], left[1]);
-        coder.vacate(Pair::hl, true);
-        if (!coder.holds(Pair::hl, left[0], left[1])) coder.load(Pair::hl, left[0], left[1]);
+        take_hl(coder, left[0], left[1]);
         if (coder.failed) return;
         repeat(coder, by_pair(op::kDad, Pair::hl), operation.immediate);
         coder.set(Pair::hl, operation.results[0], operation.results[1]);
     });
-}
-
-/// Loads a word into HL for being destroyed.
-void take_hl(Coder& coder, ByteId low, ByteId high) {
-    coder.load(Pair::hl, low, high);
-    coder.vacate(Register::l, true);
-    coder.lock(Register::l);
-    coder.vacate(Register::h, true);
-    coder.unlock(set_of(Register::l));
-    if (!coder.holds(Pair::hl, low, high)) coder.failed = true;
 }
 
 void add_left_three(Ways& ways, const Coder& start, const Operation& operation) {
@@ -97,10 +92,8 @@ void add_left_long(Ways& ways, const Coder& start, const Operation& operation) {
     for (const Pair top : {Pair::de, Pair::bc}) {
         add_way(ways, start, [&](Coder& coder) {
             coder.load(top, left[2], left[3]);
-            coder.vacate(low_of(top), true);
-            coder.lock(low_of(top));
-            coder.vacate(high_of(top), true);
-            coder.lock(high_of(top));
+            coder.copy_out(top, true, true);
+            coder.lock(top);
             take_hl(coder, left[0], left[1]);
             coder.lock(Pair::hl);
             coder.vacate(Register::a, true);
@@ -251,10 +244,8 @@ void add_right_by_left(Ways& ways, const Coder& start, const Operation& operatio
     if (results.size() == 4 && !top_needed) {
         add_way(ways, start, [&](Coder& coder) {
             coder.load(Pair::de, left[2], left[3]);
-            coder.vacate(Register::e, true);
-            coder.lock(Register::e);
-            coder.vacate(Register::d, true);
-            coder.lock(Register::d);
+            coder.copy_out(Pair::de, true, true);
+            coder.lock(Pair::de);
             take_hl(coder, left[0], left[1]);
             coder.lock(Pair::hl);
             coder.vacate(Register::a, true);
