@@ -186,7 +186,10 @@ private:
     void optimise_all() {
         clock_.begin("optimise");
         if (has_inner_) internalise(*modules_[0], visible_names(0));
-        for (const ModulePointer& module : modules_) ir::optimise(*module, request_.level);
+        for (const ModulePointer& module : modules_) {
+            ir::take_loop_bounds(*module);
+            ir::optimise(*module, request_.level);
+        }
     }
 
     void join_all() {
