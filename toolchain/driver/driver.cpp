@@ -15,6 +15,7 @@
 #include "toolchain/driver/join.hpp"
 #include "toolchain/driver/resources.hpp"
 #include "toolchain/driver/work_folder.hpp"
+#include "toolchain/ir/loop_bounds.hpp"
 #include "toolchain/ir/select.hpp"
 
 namespace toolchain::driver {

@@ -31,7 +31,12 @@ TEST_P(Language, StructsByValue) {
 struct Small { char a; };
 struct Large { int a[9]; Small s; };
 [[gnu::noinline]] Large change(Large l, Small s) { l.a[4] += 100; l.s.a += s.a; return l; }
-[[gnu::noinline]] int sum(Large l) { int s = l.s.a; for (int x : l.a) s += x; l.a[0] = 7; return s; }
+[[gnu::noinline]] int sum(Large l) {
+    int s = l.s.a;
+    for (int x : l.a) s += x;
+    l.a[0] = 7;
+    return s;
+}
 extern "C" unsigned f(unsigned n) {
     Large l{};
     for (int i = 0; i < 9; ++i) l.a[i] = int(n) + i;
@@ -60,9 +65,16 @@ extern "C" unsigned f(unsigned n) {
 
 TEST_P(Language, VirtualFunctionsAndPointers) {
     const std::string source = R"(
-struct Shape { virtual int area() const = 0; virtual int twice() const { return 2 * area(); } int k; };
+struct Shape {
+    virtual int area() const = 0;
+    virtual int twice() const { return 2 * area(); }
+    int k;
+};
 struct Square : Shape { int a; int area() const override { return a * a; } };
-struct Line : Shape { int area() const override { return 0; } int twice() const override { return k; } };
+struct Line : Shape {
+    int area() const override { return 0; }
+    int twice() const override { return k; }
+};
 void operator delete(void*, unsigned) {}
 extern "C" void __cxa_pure_virtual() {}
 Square square; Line line;
