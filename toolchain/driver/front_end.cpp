@@ -38,9 +38,9 @@ void write_file(const fs::path& path, std::string_view text) {
     if (!file) throw Failed(fmt::format("{}: cannot be written: free some space", path.string()));
 }
 
-/// A line marker in front lets messages and line tables speak of `name`.
+/// A #line in front lets messages and line tables speak of `name`.
 void write_named(const fs::path& path, std::string_view name, std::string_view text) {
-    write_file(path, fmt::format("# 1 \"{}\"\n{}", name, text));
+    write_file(path, fmt::format("#line 1 \"{}\"\n{}", name, text));
 }
 
 void check_readable(const std::string& path) {
