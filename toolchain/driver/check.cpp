@@ -1,5 +1,6 @@
 // check.cpp - what a joined module may not contain, named with file and line; see join.hpp.
 #include <fmt/format.h>
+#include <llvm/ADT/StringExtras.h>
 #include <llvm/Demangle/Demangle.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/InstIterator.h>
@@ -41,6 +42,24 @@ std::string place_of(const llvm::Instruction& instruction) {
     const llvm::DebugLoc& place = instruction.getDebugLoc();
     if (!place || place.getLine() == 0) return place_of(*instruction.getFunction());
     return fmt::format("{}:{}", place->getFilename().str(), place.getLine());
+}
+
+/// "file:line" of the statement that an instruction was inlined into.
+std::string outer_place_of(const llvm::Instruction& instruction) {
+    std::string outermost;
+    for (const llvm::DILocation* place = instruction.getDebugLoc().get(); place != nullptr;
+         place = place->getInlinedAt()) {
+        if (place->getLine() == 0) continue;
+        outermost = fmt::format("{}:{}", place->getFilename().str(), place->getLine());
+    }
+    return outermost.empty() ? place_of(*instruction.getFunction()) : outermost;
+}
+
+/// The name in the source. The optimiser makes "object.0", "object.1" of an object's members.
+std::string source_name(llvm::StringRef symbol) {
+    const auto [object, member] = symbol.rsplit('.');
+    const bool is_member = !member.empty() && llvm::all_of(member, llvm::isDigit);
+    return llvm::demangle((is_member ? object : symbol).str());
 }
 
 /// A place where a constant is used, through expressions and initial values.
@@ -203,14 +222,14 @@ private:
                 const auto* variable = llvm::dyn_cast<llvm::GlobalVariable>(value);
                 if (variable == nullptr || variable->isConstant()) continue;
                 if (llvm::isa<llvm::LoadInst>(instruction)) continue;
-                const std::string name = llvm::demangle(variable->getName().str());
+                const std::string name = source_name(variable->getName());
                 if (name.starts_with("guard variable") || !constructed_.insert(name).second) {
                     continue;
                 }
                 add(
                     fmt::format("{}: '{}' is constructed at run time, and --no-constructors "
                                 "forbids it: make it constinit",
-                                place_of(instruction), name));
+                                outer_place_of(instruction), name));
             }
         }
     }

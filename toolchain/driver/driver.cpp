@@ -149,6 +149,7 @@ private:
     /// Whether a line of the source defines one of the functions: "type name(".
     static bool offers_one(const Resource& file, const std::set<std::string>& names) {
         for (const std::string& name : names) {
+            if (name.starts_with("__i85_")) continue;  // instructions, see i85.h
             for (const char* before : {" ", "*"}) {
                 if (file.text.find(before + name + "(") != std::string_view::npos) return true;
             }

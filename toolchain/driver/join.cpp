@@ -59,8 +59,10 @@ ModulePointer read_module(const std::filesystem::path& file, const std::string& 
     llvm::SMDiagnostic problem;
     ModulePointer module = llvm::parseIRFile(file.string(), problem, context);
     if (!module) {
-        throw Failed(fmt::format("{}:{}: not readable for LLVM 19: {}: use clang-19", name,
-                                 std::max(problem.getLineNo(), 1), problem.getMessage().str()));
+        throw Failed(
+            fmt::format("{}:{}: not readable for LLVM 19: {}: use clang-19, and no "
+                        "built-in function of another processor",
+                        name, std::max(problem.getLineNo(), 1), problem.getMessage().str()));
     }
     module->setSourceFileName(name);
     return module;

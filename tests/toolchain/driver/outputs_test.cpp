@@ -1,11 +1,16 @@
 // A program's files are written all, or none.
 #include "toolchain/driver/outputs.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "tests/toolchain/driver/compile.hpp"
@@ -80,6 +85,30 @@ TEST(Outputs, DoNotReplaceAFolder) {
                 }),
                 testing::HasSubstr("two: cannot be written: it is a folder"));
     EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"two"});
+}
+
+TEST(Outputs, GoIntoPipesAndDevicesInsteadOfReplacingThem) {
+    const driver::WorkFolder folder;
+    const fs::path pipe = folder.path() / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDWR);  // does not wait for a writer
+    ASSERT_GE(reader, 0);
+    driver::write_all({{pipe, "text"}});
+    ASSERT_TRUE(fs::is_fifo(pipe));
+    std::array<char, 5> text{};
+    ASSERT_EQ(read(reader, text.data(), 4), 4);
+    EXPECT_STREQ(text.data(), "text");
+    close(reader);
+    EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"pipe"});
+}
+
+TEST(Outputs, FollowLinks) {
+    const driver::WorkFolder folder;
+    std::ofstream(folder.path() / "target") << "old";
+    fs::create_symlink("target", folder.path() / "link");
+    driver::write_all({{folder.path() / "link", "new"}});
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+    EXPECT_EQ(text_of(folder.path() / "target"), "new");
 }
 
 TEST(Outputs, NoticeAFullDisk) {
