@@ -55,6 +55,13 @@ std::string outer_place_of(const llvm::Instruction& instruction) {
     return outermost.empty() ? place_of(*instruction.getFunction()) : outermost;
 }
 
+std::string first_place_in(const llvm::Function& function) {
+    for (const llvm::Instruction& instruction : llvm::instructions(function)) {
+        if (instruction.getDebugLoc()) return outer_place_of(instruction);
+    }
+    return place_of(function);
+}
+
 /// The name in the source. The optimiser makes "object.0", "object.1" of an object's members.
 std::string source_name(llvm::StringRef symbol) {
     const auto [object, member] = symbol.rsplit('.');
@@ -99,12 +106,19 @@ class Checker {
 public:
     explicit Checker(const llvm::Module& module) : module_(module) {}
 
-    void run(bool allow_constructors) {
+    void check_functions() {
         check_assembly();
-        check_missing();
         check_interrupts();
         check_calls();
+    }
+
+    void check_whole(bool allow_constructors) {
+        check_missing();
         if (!allow_constructors) check_constructors();
+    }
+
+    /// @errors Failed if there are mistakes
+    void finish() const {
         if (mistakes_.empty()) return;
         std::string text;
         for (std::size_t i = 0; i < std::min(mistakes_.size(), kMostShown); ++i) {
@@ -201,9 +215,9 @@ private:
             describe_constructor(*function, 0);
             if (mistakes_.size() != before) continue;
             add(
-                fmt::format("{}: '{}' would run before main, and --no-constructors forbids it: "
-                            "call it from main",
-                            place_of(*function), llvm::demangle(function->getName().str())));
+                fmt::format("{}: this runs before main, and --no-constructors forbids it: call it "
+                            "from main",
+                            first_place_in(*function)));
         }
     }
 
@@ -241,8 +255,17 @@ private:
 
 }  // namespace
 
-void check_module(const llvm::Module& module, bool allow_constructors) {
-    Checker(module).run(allow_constructors);
+void check_functions(const llvm::Module& module) {
+    Checker checker(module);
+    checker.check_functions();
+    checker.finish();
+}
+
+void check_whole(const llvm::Module& module, bool allow_constructors) {
+    Checker checker(module);
+    checker.check_functions();
+    checker.check_whole(allow_constructors);
+    checker.finish();
 }
 
 }  // namespace toolchain::driver

@@ -188,6 +188,7 @@ private:
     void optimise_all() {
         clock_.begin("optimise");
         if (has_inner_) internalise(*modules_[0], visible_names(0));
+        for (const ModulePointer& module : modules_) check_functions(*module);
         for (const ModulePointer& module : modules_) {
             ir::take_loop_bounds(*module);
             ir::optimise(*module, request_.level);
@@ -203,7 +204,7 @@ private:
         modules_.clear();
         internalise(*whole_, kept_);
         settle_names(*whole_);
-        check_module(*whole_, request_.allow_constructors);
+        check_whole(*whole_, request_.allow_constructors);
     }
 
     void prepare() {

@@ -35,7 +35,7 @@ protected:
     }
     std::string check(const std::string& text, bool allow_constructors = true) {
         const ModulePointer module = parse(text);
-        return failure_of([&] { check_module(*module, allow_constructors); });
+        return failure_of([&] { check_whole(*module, allow_constructors); });
     }
 
 private:
@@ -55,7 +55,7 @@ TEST_F(Join, ADefinitionMeetsItsUse) {
         parse("declare i16 @f()\ndefine i16 @main() { %r = call i16 @f() ret i16 %r }");
     link_into(*whole, parse("define i16 @f() { ret i16 7 }"));
     EXPECT_THAT(defined_in(*whole), UnorderedElementsAre("main", "f"));
-    EXPECT_EQ(failure_of([&] { check_module(*whole, true); }), "");
+    EXPECT_EQ(failure_of([&] { check_whole(*whole, true); }), "");
 }
 
 TEST_F(Join, TwoDefinitionsAreAMistake) {
