@@ -153,7 +153,11 @@ TEST(Driver, ConstantInitialisationIsNoConstructor) {
 TEST(Driver, VirtualFunctionsNeedNoRunTimeTypes) {
     const std::string text = R"(
         struct Shape { virtual int area() const = 0; virtual ~Shape() {} };
-        struct Square : Shape { int a; Square(int n) : a(n) {} int area() const override { return a * a; } };
+        struct Square : Shape {
+            int a;
+            Square(int n) : a(n) {}
+            int area() const override { return a * a; }
+        };
         struct Line : Shape { int area() const override { return 0; } };
         Square square(5);
         Line line;
