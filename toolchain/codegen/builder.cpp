@@ -18,6 +18,14 @@ uint64_t mask_of(std::size_t size) {
 
 }  // namespace
 
+// Equal constants and addresses are one byte, so that code generation sees that they are equal.
+ByteId Builder::interned(const ByteInfo& info) {
+    const auto key = std::make_tuple(info.kind, info.constant, info.symbol, info.offset);
+    const auto [entry, added] = interned_.try_emplace(key, kNone);
+    if (added) entry->second = new_byte(info);
+    return entry->second;
+}
+
 ByteId Builder::new_byte(const ByteInfo& info) {
     function_.bytes.push_back(info);
     return static_cast<ByteId>(function_.bytes.size() - 1);
@@ -41,7 +49,7 @@ Operation& Builder::append(Opcode opcode) {
 // -------------------------------------------------------------------------
 
 ByteId Builder::constant_byte(uint8_t value) {
-    return new_byte({Kind::constant, value});
+    return interned({Kind::constant, value});
 }
 
 Bytes Builder::constant(uint64_t value, std::size_t size) {
@@ -54,8 +62,8 @@ Bytes Builder::constant(uint64_t value, std::size_t size) {
 }
 
 Bytes Builder::address(SymbolId symbol, int32_t offset) {
-    return {new_byte({Kind::address_low, 0, symbol, offset}),
-            new_byte({Kind::address_high, 0, symbol, offset})};
+    return {interned({Kind::address_low, 0, symbol, offset}),
+            interned({Kind::address_high, 0, symbol, offset})};
 }
 
 Bytes Builder::undefined(std::size_t size) {

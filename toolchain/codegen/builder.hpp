@@ -1,13 +1,14 @@
 // builder.hpp - appends operations to a block and folds what needs no code.
 // Depends on   mir.hpp.
 // Folds        constants, bytes known to be 0 or FF, operands that repeat; addresses plus
-// constants;
-//              shifts by whole bytes. What is left computes something.
+//              constants; shifts by whole bytes. What is left computes something.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "toolchain/codegen/mir.hpp"
@@ -60,6 +61,7 @@ public:
 
 private:
     ByteId new_byte(const ByteInfo& info);
+    ByteId interned(const ByteInfo& info);
     Bytes new_results(std::size_t size);
     Operation& append(Opcode opcode);
     ByteId bitwise_byte(Opcode opcode, ByteId left, ByteId right);
@@ -73,6 +75,7 @@ private:
     Function& function_;
     BlockId block_ = 0;
     SourcePlace place_;
+    std::map<std::tuple<ByteInfo::Kind, uint8_t, SymbolId, int32_t>, ByteId> interned_;
 };
 
 }  // namespace toolchain::codegen

@@ -4,6 +4,7 @@
 // Depends on   mir.hpp, toolchain/asm.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <span>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "toolchain/asm/object.hpp"
+#include "toolchain/codegen/generate.hpp"
 #include "toolchain/codegen/mir.hpp"
 
 namespace toolchain::codegen {
@@ -51,8 +53,18 @@ struct Compiled {
 
 /// @param runtime  the library's modules: their calls and stack notes belong to the graph
 /// @errors Refused: recursion (naming the cycle and its lines), a function with a frame that both
-///         the main program and an interrupt reach through a pointer, ...
+///         the main program and an interrupt reach through a pointer, a call of an interrupt
+///         function, two of them for one vector
 [[nodiscard]] Compiled compile(Module module, std::span<const assembly::Module> runtime,
                                const CompileOptions& options = {});
+
+/// What makes code of one function: generate(), or a stand-in for tests.
+using Generator =
+    std::function<FunctionCode(const Module&, const Function&, const GenerateOptions&)>;
+
+/// The same with another generator.
+[[nodiscard]] Compiled compile_with(const Generator& generator, Module module,
+                                    std::span<const assembly::Module> runtime,
+                                    const CompileOptions& options = {});
 
 }  // namespace toolchain::codegen

@@ -1,5 +1,6 @@
 // check.cpp - what a joined module may not contain, named with file and line; see join.hpp.
 #include <fmt/format.h>
+#include <llvm/ADT/StringExtras.h>
 #include <llvm/Demangle/Demangle.h>
 #include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/InstIterator.h>
@@ -43,6 +44,31 @@ std::string place_of(const llvm::Instruction& instruction) {
     return fmt::format("{}:{}", place->getFilename().str(), place.getLine());
 }
 
+/// "file:line" of the statement that an instruction was inlined into.
+std::string outer_place_of(const llvm::Instruction& instruction) {
+    std::string outermost;
+    for (const llvm::DILocation* place = instruction.getDebugLoc().get(); place != nullptr;
+         place = place->getInlinedAt()) {
+        if (place->getLine() == 0) continue;
+        outermost = fmt::format("{}:{}", place->getFilename().str(), place->getLine());
+    }
+    return outermost.empty() ? place_of(*instruction.getFunction()) : outermost;
+}
+
+std::string first_place_in(const llvm::Function& function) {
+    for (const llvm::Instruction& instruction : llvm::instructions(function)) {
+        if (instruction.getDebugLoc()) return outer_place_of(instruction);
+    }
+    return place_of(function);
+}
+
+/// The name in the source. The optimiser makes "object.0", "object.1" of an object's members.
+std::string source_name(llvm::StringRef symbol) {
+    const auto [object, member] = symbol.rsplit('.');
+    const bool is_member = !member.empty() && llvm::all_of(member, llvm::isDigit);
+    return llvm::demangle((is_member ? object : symbol).str());
+}
+
 /// A place where a constant is used, through expressions and initial values.
 std::string place_of_use(const llvm::Constant& constant, unsigned depth = 0) {
     constexpr unsigned kDeepest = 8;
@@ -80,12 +106,19 @@ class Checker {
 public:
     explicit Checker(const llvm::Module& module) : module_(module) {}
 
-    void run(bool allow_constructors) {
+    void check_functions() {
         check_assembly();
-        check_missing();
         check_interrupts();
         check_calls();
+    }
+
+    void check_whole(bool allow_constructors) {
+        check_missing();
         if (!allow_constructors) check_constructors();
+    }
+
+    /// @errors Failed if there are mistakes
+    void finish() const {
         if (mistakes_.empty()) return;
         std::string text;
         for (std::size_t i = 0; i < std::min(mistakes_.size(), kMostShown); ++i) {
@@ -182,9 +215,9 @@ private:
             describe_constructor(*function, 0);
             if (mistakes_.size() != before) continue;
             add(
-                fmt::format("{}: '{}' would run before main, and --no-constructors forbids it: "
-                            "call it from main",
-                            place_of(*function), llvm::demangle(function->getName().str())));
+                fmt::format("{}: this runs before main, and --no-constructors forbids it: call it "
+                            "from main",
+                            first_place_in(*function)));
         }
     }
 
@@ -203,14 +236,14 @@ private:
                 const auto* variable = llvm::dyn_cast<llvm::GlobalVariable>(value);
                 if (variable == nullptr || variable->isConstant()) continue;
                 if (llvm::isa<llvm::LoadInst>(instruction)) continue;
-                const std::string name = llvm::demangle(variable->getName().str());
+                const std::string name = source_name(variable->getName());
                 if (name.starts_with("guard variable") || !constructed_.insert(name).second) {
                     continue;
                 }
                 add(
                     fmt::format("{}: '{}' is constructed at run time, and --no-constructors "
                                 "forbids it: make it constinit",
-                                place_of(instruction), name));
+                                outer_place_of(instruction), name));
             }
         }
     }
@@ -222,8 +255,17 @@ private:
 
 }  // namespace
 
-void check_module(const llvm::Module& module, bool allow_constructors) {
-    Checker(module).run(allow_constructors);
+void check_functions(const llvm::Module& module) {
+    Checker checker(module);
+    checker.check_functions();
+    checker.finish();
+}
+
+void check_whole(const llvm::Module& module, bool allow_constructors) {
+    Checker checker(module);
+    checker.check_functions();
+    checker.check_whole(allow_constructors);
+    checker.finish();
 }
 
 }  // namespace toolchain::driver

@@ -38,11 +38,6 @@ void write_file(const fs::path& path, std::string_view text) {
     if (!file) throw Failed(fmt::format("{}: cannot be written: free some space", path.string()));
 }
 
-/// A line marker in front lets messages and line tables speak of `name`.
-void write_named(const fs::path& path, std::string_view name, std::string_view text) {
-    write_file(path, fmt::format("# 1 \"{}\"\n{}", name, text));
-}
-
 void check_readable(const std::string& path) {
     std::error_code problem;
     const bool folder = fs::is_directory(path, problem);
@@ -69,6 +64,14 @@ const char* level_option(ir::Optimisation level) {
             break;
     }
     return "-Os";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size())) {
+        text.replace(at, from.size(), to);
+    }
+    return text;
 }
 
 void tell(const Request& request, const std::string& text) {
@@ -130,6 +133,9 @@ std::vector<std::string> clang_arguments(const Request& request, const std::stri
         "-isystem",
         include.string(),
         "-gline-tables-only",
+        // Messages and line tables speak of names that mean something to people.
+        fmt::format("-ffile-prefix-map={}={}", input.string(), path),
+        fmt::format("-ffile-prefix-map={}/=", include.string()),
         level_option(request.level),
         "-Xclang",
         "-disable-llvm-passes",
@@ -154,22 +160,19 @@ std::vector<fs::path> run_front_end(const Request& request, const fs::path& work
     const fs::path include = work / "include";
     fs::create_directories(include);
     for (const Resource& file : include_files()) {
-        write_named(include / file.name, file.name, file.text);
+        write_file(include / file.name, file.text);
     }
     std::vector<fs::path> results;
     std::vector<Command> commands;
-    std::vector<std::string> paths;
+    std::vector<std::string> paths;   // as people know them
+    std::vector<std::string> inputs;  // as clang does
     for (std::size_t i = 0; i < request.sources.size(); ++i) {
         const Source& source = request.sources[i];
         const Language language = language_of(source.path);
         fs::path input = source.path;
         if (source.text) {
             input = work / fmt::format("{}{}", i, fs::path(source.path).extension().string());
-            if (language == Language::llvm) {
-                write_file(input, *source.text);
-            } else {
-                write_named(input, source.path, *source.text);
-            }
+            write_file(input, *source.text);
         } else {
             check_readable(source.path);
         }
@@ -181,6 +184,7 @@ std::vector<fs::path> run_front_end(const Request& request, const fs::path& work
         commands.push_back({clang_arguments(request, source.path, input, results.back(), include),
                             work / fmt::format("{}.log", i)});
         paths.push_back(source.path);
+        inputs.push_back(input.string());
     }
     if (request.verbose) {
         for (const Command& command : commands) {
@@ -188,7 +192,10 @@ std::vector<fs::path> run_front_end(const Request& request, const fs::path& work
         }
     }
     const std::vector<Outcome> outcomes = run_all(commands, request.jobs);
-    for (const Outcome& outcome : outcomes) tell(request, outcome.messages);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        const std::string said = replaced(outcomes[i].messages, inputs[i], paths[i]);
+        tell(request, replaced(said, include.string() + "/", ""));
+    }
     for (std::size_t i = 0; i < outcomes.size(); ++i) check(outcomes[i], clang_program(), paths[i]);
     return results;
 }

@@ -42,10 +42,10 @@ bool is_interrupt(const llvm::GlobalValue& value) {
 }
 
 /// "rover::step(int)" and "rover::step" for _ZN5rover4stepEi.
-std::pair<std::string, std::string> readable_names(llvm::StringRef symbol) {
-    const std::string whole = llvm::demangle(symbol.str());
+std::pair<std::string, std::string> readable_names(const std::string& symbol) {
+    const std::string whole = llvm::demangle(symbol);
     llvm::ItaniumPartialDemangler parts;
-    if (parts.partialDemangle(symbol.str().c_str()) || !parts.isFunction()) return {whole, whole};
+    if (parts.partialDemangle(symbol.c_str()) || !parts.isFunction()) return {whole, whole};
     char* text = parts.getFunctionName(nullptr, nullptr);
     std::string name = text != nullptr ? text : whole;
     std::free(text);  // the demangler's interface: malloc
@@ -59,8 +59,10 @@ ModulePointer read_module(const std::filesystem::path& file, const std::string& 
     llvm::SMDiagnostic problem;
     ModulePointer module = llvm::parseIRFile(file.string(), problem, context);
     if (!module) {
-        throw Failed(fmt::format("{}:{}: not readable for LLVM 19: {}: use clang-19", name,
-                                 std::max(problem.getLineNo(), 1), problem.getMessage().str()));
+        throw Failed(
+            fmt::format("{}:{}: not readable for LLVM 19: {}: use clang-19, and no "
+                        "built-in function of another processor",
+                        name, std::max(problem.getLineNo(), 1), problem.getMessage().str()));
     }
     module->setSourceFileName(name);
     return module;
@@ -101,10 +103,11 @@ std::set<std::string> find_kept(std::span<const ModulePointer> modules,
         for (const ModulePointer& module : modules) {
             for (llvm::GlobalValue& value : module->global_values()) {
                 if (value.isDeclaration()) continue;
-                const auto [whole, name] = readable_names(value.getName());
-                if (wanted != value.getName() && wanted != whole && wanted != name) continue;
+                const std::string symbol = value.getName().str();
+                const auto [whole, name] = readable_names(symbol);
+                if (wanted != symbol && wanted != whole && wanted != name) continue;
                 known = true;
-                found.insert(value.getName().str());
+                found.insert(symbol);
             }
         }
         if (!known) {

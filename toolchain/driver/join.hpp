@@ -44,10 +44,15 @@ void internalise(llvm::Module& module, const std::set<std::string>& visible);
 /// Replaces aliases by what they stand for, and weak names that nobody defines by null.
 void settle_names(llvm::Module& module);
 
-/// @errors Failed: what is used but not defined, with a place each; an interrupt function that is
-///         called, or has no vector of the 8085, or the vector of another one; a call that does not
-///         fit the function; assembly outside of functions; constructors if they are not allowed
-void check_module(const llvm::Module& module, bool allow_constructors);
+/// What does not depend on other modules nor on optimisation.
+/// @errors Failed: an interrupt function that is called, or has no vector of the 8085, or the
+/// vector
+///         of another one; a call that does not fit the function; assembly outside of functions
+void check_functions(const llvm::Module& module);
+
+/// The same of all modules together.
+/// @errors Failed: also what is used but not defined, and constructors if they are not allowed
+void check_whole(const llvm::Module& module, bool allow_constructors);
 
 /// Functions and variables with __attribute__((used)).
 [[nodiscard]] std::vector<std::string> used_names(const llvm::Module& module);

@@ -19,6 +19,26 @@ namespace toolchain::driver {
 namespace fs = std::filesystem;
 namespace {
 
+[[noreturn]] void fail(const fs::path& path, const std::string& why) {
+    throw Failed(fmt::format("{}: cannot be written: {}: check path, permissions and space",
+                             path.string(), why));
+}
+
+void write_to(const fs::path& place, const OutputFile& file) {
+    errno = 0;
+    std::ofstream stream(place, std::ios::binary | std::ios::trunc);
+    stream << file.contents;
+    stream.close();
+    if (!stream) fail(file.path, std::strerror(errno));
+}
+
+/// Devices and pipes are written to; a file takes their place never.
+bool is_special(const fs::path& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status);
+}
+
 /// Files that are not in their places yet; those left over are removed.
 class Drafts {
 public:
@@ -33,11 +53,7 @@ public:
     void write(const OutputFile& file) {
         const fs::path draft = file.path.string() + fmt::format(".{}.tmp", getpid());
         paths_.push_back(draft);
-        errno = 0;
-        std::ofstream stream(draft, std::ios::binary | std::ios::trunc);
-        stream << file.contents;
-        stream.close();
-        if (!stream) fail(file.path, std::strerror(errno));
+        write_to(draft, file);
     }
 
     void put_into_place(const std::vector<OutputFile>& files) {
@@ -50,11 +66,6 @@ public:
     }
 
 private:
-    [[noreturn]] static void fail(const fs::path& path, const std::string& why) {
-        throw Failed(fmt::format("{}: cannot be written: {}: check path, permissions and space",
-                                 path.string(), why));
-    }
-
     std::vector<fs::path> paths_;
 };
 
@@ -72,16 +83,26 @@ std::vector<OutputFile> output_files(const assembly::Program& program, const fs:
 }
 
 void write_all(const std::vector<OutputFile>& files) {
-    Drafts drafts;
+    std::vector<OutputFile> plain;
+    std::vector<OutputFile> special;
     for (const OutputFile& file : files) {
         std::error_code ignored;
         if (fs::is_directory(file.path, ignored)) {
             throw Failed(fmt::format("{}: cannot be written: it is a folder: choose another name",
                                      file.path.string()));
         }
-        drafts.write(file);
+        if (is_special(file.path)) {
+            special.push_back(file);
+            continue;
+        }
+        plain.push_back(file);
+        const fs::path target = fs::weakly_canonical(file.path, ignored);  // through links
+        if (!ignored && !target.empty()) plain.back().path = target;
     }
-    drafts.put_into_place(files);
+    Drafts drafts;
+    for (const OutputFile& file : plain) drafts.write(file);
+    for (const OutputFile& file : special) write_to(file.path, file);
+    drafts.put_into_place(plain);
 }
 
 }  // namespace toolchain::driver

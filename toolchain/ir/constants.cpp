@@ -1,12 +1,13 @@
 // constants.cpp - see constants.hpp.
 #include "toolchain/ir/constants.hpp"
 
+#include <fmt/format.h>
 #include <llvm/IR/GlobalAlias.h>
 #include <llvm/IR/GlobalVariable.h>
 #include <llvm/IR/Operator.h>
 #include <llvm/Support/raw_ostream.h>
 
-#include "toolchain/ir/select.hpp"
+#include "toolchain/ir/refuse.hpp"
 
 namespace toolchain::ir {
 
@@ -68,7 +69,7 @@ Relocatable evaluate_expression(const llvm::DataLayout& layout,
         default:
             break;
     }
-    throw Refused("constant expression not supported: " + text_of(expression));
+    throw BadConstant("constant expression not supported: " + text_of(expression));
 }
 
 Relocatable evaluate(const llvm::DataLayout& layout, const llvm::Constant& constant) {
@@ -88,7 +89,7 @@ Relocatable evaluate(const llvm::DataLayout& layout, const llvm::Constant& const
     if (const auto* expression = llvm::dyn_cast<llvm::ConstantExpr>(&constant)) {
         return evaluate_expression(layout, *expression);
     }
-    throw Refused("constant not supported: " + text_of(constant));
+    throw BadConstant("constant not supported: " + text_of(constant));
 }
 
 void put_scalar(codegen::Module& out, const llvm::DataLayout& layout,
@@ -134,8 +135,8 @@ std::vector<Datum> constant_data(codegen::Module& out, const llvm::DataLayout& l
     } else if (type->isIntegerTy() || type->isPointerTy()) {
         put_scalar(out, layout, constant, data);
     } else {
-        throw Refused("constant not supported: " + text_of(constant) +
-                      ": only integers, pointers and aggregates of them exist on the 8085");
+        throw BadConstant("constant not supported: " + text_of(constant) +
+                          ": only integers, pointers and aggregates of them exist on the 8085");
     }
     data.resize(size);
     return data;
@@ -148,7 +149,12 @@ codegen::Variable make_variable(codegen::Module& out, const llvm::DataLayout& la
     result.size = static_cast<uint32_t>(layout.getTypeAllocSize(variable.getValueType()));
     result.is_constant = variable.isConstant();
     if (variable.hasInitializer() && !variable.getInitializer()->isNullValue()) {
-        result.initial = constant_data(out, layout, *variable.getInitializer());
+        try {
+            result.initial = constant_data(out, layout, *variable.getInitializer());
+        } catch (const BadConstant& problem) {
+            throw Refused(fmt::format("{}: in {}: {}", place_text(variable),
+                                      variable.getName().str(), problem.what()));
+        }
     }
     return result;
 }

@@ -5,13 +5,20 @@
 #include <llvm/IR/Constants.h>
 #include <llvm/IR/DataLayout.h>
 
+#include <stdexcept>
 #include <vector>
 
 #include "toolchain/codegen/mir.hpp"
 
 namespace toolchain::ir {
 
-/// The bytes of a constant as they stand in memory. @errors Refused
+/// A constant that has no bytes before the program runs; the message says which.
+class BadConstant : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The bytes of a constant as they stand in memory. @errors BadConstant
 [[nodiscard]] std::vector<codegen::Datum> constant_data(codegen::Module& out,
                                                         const llvm::DataLayout& layout,
                                                         const llvm::Constant& constant);

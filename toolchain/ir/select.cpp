@@ -5,17 +5,60 @@
 #include <llvm/ADT/PostOrderIterator.h>
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/DebugInfoMetadata.h>
+#include <llvm/IR/GlobalAlias.h>
+#include <llvm/IR/InstIterator.h>
 #include <llvm/IR/InstrTypes.h>
 #include <llvm/IR/Module.h>
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "toolchain/ir/constants.hpp"
 #include "toolchain/ir/constructors.hpp"
+#include "toolchain/ir/loop_bounds.hpp"
+#include "toolchain/ir/refuse.hpp"
 #include "toolchain/ir/selector.hpp"
 
 namespace toolchain::ir {
 
 using codegen::Bytes;
 using codegen::Predicate;
+
+namespace {
+
+/// By anything but calls of it and the lists that keep it alive.
+bool is_address_taken(const llvm::Function& function) {
+    const auto taken = [](const llvm::GlobalValue& value, const auto& again) -> bool {
+        for (const llvm::Use& use : value.uses()) {
+            const llvm::User* user = use.getUser();
+            const auto* call = llvm::dyn_cast<llvm::CallBase>(user);
+            if (call != nullptr && call->isCallee(&use)) continue;
+            const auto* alias = llvm::dyn_cast<llvm::GlobalAlias>(user);
+            if (alias != nullptr && !again(*alias, again)) continue;
+            const auto* list = llvm::dyn_cast<llvm::Constant>(user);
+            const auto is_list = [](const llvm::User* of) {
+                return llvm::isa<llvm::GlobalVariable>(of) && of->getName().starts_with("llvm.");
+            };
+            // llvm.used; llvm.global_ctors, whose entries are structs.
+            const auto only_lists = [&](const llvm::Constant* entry, const auto& more) -> bool {
+                return !llvm::isa<llvm::GlobalValue>(entry) && !entry->use_empty() &&
+                       std::all_of(
+                           entry->user_begin(), entry->user_end(), [&](const llvm::User* of) {
+                               const auto* outer = llvm::dyn_cast<llvm::Constant>(of);
+                               return is_list(of) || (outer != nullptr && more(outer, more));
+                           });
+            };
+            if (list != nullptr && only_lists(list, only_lists)) continue;
+            return true;
+        }
+        return false;
+    };
+    return taken(function, taken);
+}
+
+}  // namespace
 
 Selector::Selector(codegen::Module& out, const llvm::Function& function)
     : out_(out), function_(function), layout_(function.getParent()->getDataLayout()) {}
@@ -29,6 +72,10 @@ codegen::Function Selector::run() {
         result_.interrupt =
             std::stoi(function_.getFnAttribute("interrupt").getValueAsString().str());
     }
+    result_.address_taken = is_address_taken(function_);
+    freezes_ = std::any_of(inst_begin(function_), inst_end(function_), [](const auto& instruction) {
+        return llvm::isa<llvm::FreezeInst>(instruction);
+    });
     make_blocks();
     const llvm::ReversePostOrderTraversal<const llvm::Function*> order(&function_);
     for (const llvm::BasicBlock* block : order) fill_block(*block);
@@ -39,6 +86,12 @@ codegen::Function Selector::run() {
     return std::move(result_);
 }
 
+// What a block's parameters are made of: a value each.
+void Selector::add_parameter(codegen::Block& block, const Bytes& bytes) {
+    block.parameters.insert(block.parameters.end(), bytes.begin(), bytes.end());
+    block.parameter_sizes.push_back(static_cast<uint32_t>(bytes.size()));
+}
+
 // A value that flows around a loop is used before its definition is translated only by phis, and
 // their edges are made last. The entry block has the function's parameters.
 void Selector::make_blocks() {
@@ -47,19 +100,22 @@ void Selector::make_blocks() {
         const Bytes bytes = builder_.parameter(size_of(argument.getType()));
         values_[&argument] = bytes;
         result_.parameters.push_back(bytes);
-        Bytes& parameters = result_.blocks[0].parameters;
-        parameters.insert(parameters.end(), bytes.begin(), bytes.end());
+        add_parameter(result_.blocks[0], bytes);
     }
+    const std::map<const llvm::BasicBlock*, BlockFacts> facts = block_facts(function_);
     const llvm::ReversePostOrderTraversal<const llvm::Function*> order(&function_);
     for (const llvm::BasicBlock* block : order) {
         if (block != &function_.getEntryBlock()) result_.blocks.emplace_back();
         const auto id = static_cast<codegen::BlockId>(result_.blocks.size() - 1);
         blocks_[block] = id;
+        const BlockFacts& fact = facts.at(block);
+        result_.blocks[id].frequency = fact.frequency;
+        result_.blocks[id].loop_depth = fact.loop_depth;
+        result_.blocks[id].loop_bound = fact.loop_bound;
         for (const llvm::PHINode& phi : block->phis()) {
             const Bytes bytes = builder_.parameter(size_of(phi.getType()));
             values_[&phi] = bytes;
-            Bytes& parameters = result_.blocks[id].parameters;
-            parameters.insert(parameters.end(), bytes.begin(), bytes.end());
+            add_parameter(result_.blocks[id], bytes);
         }
     }
 }
@@ -68,56 +124,67 @@ void Selector::fill_block(const llvm::BasicBlock& block) {
     builder_.set_block(blocks_.at(&block));
     for (const llvm::Instruction& instruction : block) {
         if (instruction.isTerminator() || llvm::isa<llvm::PHINode>(instruction)) continue;
+        current_ = &instruction;
         builder_.set_place(place_of(instruction));
-        select_instruction(instruction);
+        values_[&instruction] = select_instruction(instruction);
     }
 }
 
-void Selector::select_instruction(const llvm::Instruction& instruction) {
-    Bytes result;
+Bytes Selector::select_instruction(const llvm::Instruction& instruction) {
     if (const auto* binary = llvm::dyn_cast<llvm::BinaryOperator>(&instruction)) {
-        result = select_binary(*binary);
-    } else if (const auto* cast = llvm::dyn_cast<llvm::CastInst>(&instruction)) {
-        result = select_cast(*cast);
-    } else if (const auto* compare = llvm::dyn_cast<llvm::ICmpInst>(&instruction)) {
-        result = select_compare(*compare);
-    } else if (const auto* load = llvm::dyn_cast<llvm::LoadInst>(&instruction)) {
-        result = builder_.load(value(load->getPointerOperand()), size_of(load->getType()),
-                               load->isVolatile());
-    } else if (const auto* store = llvm::dyn_cast<llvm::StoreInst>(&instruction)) {
+        return select_binary(*binary);
+    }
+    if (const auto* cast = llvm::dyn_cast<llvm::CastInst>(&instruction)) return select_cast(*cast);
+    if (const auto* compare = llvm::dyn_cast<llvm::ICmpInst>(&instruction)) {
+        return select_compare(*compare);
+    }
+    // An atomic access of a byte is one instruction; more is refused before.
+    if (const auto* load = llvm::dyn_cast<llvm::LoadInst>(&instruction)) {
+        return builder_.load(value(load->getPointerOperand()), size_of(load->getType()),
+                             load->isVolatile() || load->isAtomic());
+    }
+    if (const auto* store = llvm::dyn_cast<llvm::StoreInst>(&instruction)) {
         builder_.store(value(store->getPointerOperand()), value(store->getValueOperand()),
-                       store->isVolatile());
-    } else if (const auto* address = llvm::dyn_cast<llvm::GetElementPtrInst>(&instruction)) {
-        result = select_address(*address);
-    } else if (const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction)) {
-        result = select_call(*call);
-    } else if (const auto* freeze = llvm::dyn_cast<llvm::FreezeInst>(&instruction)) {
-        result = value(freeze->getOperand(0));
-    } else if (const auto* variable = llvm::dyn_cast<llvm::AllocaInst>(&instruction)) {
-        const auto size = variable->getAllocationSize(layout_);
-        if (!size || !variable->isStaticAlloca()) {
-            refuse(
-                instruction,
-                "a variable whose size is known only at run time has no place in a static frame");
-        }
-        const auto symbol = out_.intern(
-            fmt::format("{}@frame.{}", function_.getName().str(), result_.frame.size()));
-        result_.frame.push_back({symbol, static_cast<uint32_t>(size->getFixedValue())});
-        result = builder_.address(symbol, 0);
-    } else if (const auto* extract = llvm::dyn_cast<llvm::ExtractValueInst>(&instruction)) {
+                       store->isVolatile() || store->isAtomic());
+        return {};
+    }
+    if (const auto* address = llvm::dyn_cast<llvm::GetElementPtrInst>(&instruction)) {
+        return select_address(*address);
+    }
+    if (const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction)) return select_call(*call);
+    if (const auto* freeze = llvm::dyn_cast<llvm::FreezeInst>(&instruction)) {
+        return value(freeze->getOperand(0));
+    }
+    if (const auto* variable = llvm::dyn_cast<llvm::AllocaInst>(&instruction)) {
+        return select_variable(*variable);
+    }
+    if (const auto* extract = llvm::dyn_cast<llvm::ExtractValueInst>(&instruction)) {
         const Bytes whole = value(extract->getAggregateOperand());
         const auto from = whole.begin() + offset_of(extract->getAggregateOperand()->getType(),
                                                     extract->getIndices());
-        result.assign(from, from + static_cast<std::ptrdiff_t>(size_of(extract->getType())));
-    } else if (const auto* insert = llvm::dyn_cast<llvm::InsertValueInst>(&instruction)) {
-        result = value(insert->getAggregateOperand());
+        return {from, from + static_cast<std::ptrdiff_t>(size_of(extract->getType()))};
+    }
+    if (const auto* insert = llvm::dyn_cast<llvm::InsertValueInst>(&instruction)) {
+        Bytes result = value(insert->getAggregateOperand());
         const Bytes part = value(insert->getInsertedValueOperand());
         std::copy(part.begin(), part.end(),
                   result.begin() + offset_of(insert->getType(), insert->getIndices()));
-    } else {
-        refuse(instruction, fmt::format("'{}' is not supported", instruction.getOpcodeName()));
+        return result;
     }
-    values_[&instruction] = result;
+    if (llvm::isa<llvm::FenceInst>(instruction)) return {};  // one processor, in order
+    refuse(instruction, fmt::format("'{}' is not supported", instruction.getOpcodeName()));
+}
+
+// A variable whose size is known has a place in the static frame.
+Bytes Selector::select_variable(const llvm::AllocaInst& variable) {
+    const auto size = variable.getAllocationSize(layout_);
+    if (!size || !variable.isStaticAlloca()) {
+        refuse(variable, "a variable whose size is known only at run time: frames are static");
+    }
+    const auto symbol =
+        out_.intern(fmt::format("{}@frame.{}", function_.getName().str(), result_.frame.size()));
+    result_.frame.push_back({symbol, static_cast<uint32_t>(size->getFixedValue())});
+    return builder_.address(symbol, 0);
 }
 
 // Byte offset of an element of a first-class aggregate.
@@ -150,6 +217,7 @@ codegen::Edge Selector::edge(const llvm::BasicBlock& from, const llvm::BasicBloc
 }
 
 void Selector::select_terminator(const llvm::Instruction& instruction) {
+    current_ = &instruction;
     builder_.set_place(place_of(instruction));
     codegen::Terminator end;
     using Kind = codegen::Terminator::Kind;
@@ -159,10 +227,28 @@ void Selector::select_terminator(const llvm::Instruction& instruction) {
     } else if (const auto* branch = llvm::dyn_cast<llvm::BranchInst>(&instruction)) {
         select_branch(*branch);
         return;
+    } else if (const auto* table = llvm::dyn_cast<llvm::SwitchInst>(&instruction)) {
+        end = table_of(*table);
     } else if (!llvm::isa<llvm::UnreachableInst>(instruction)) {
         refuse(instruction, fmt::format("'{}' is not supported", instruction.getOpcodeName()));
     }
     builder_.terminate(std::move(end));
+}
+
+// Behind lower_switches(): cases 0, 1, 2 ... of a byte.
+codegen::Terminator Selector::table_of(const llvm::SwitchInst& table) {
+    codegen::Terminator end;
+    end.kind = codegen::Terminator::Kind::table;
+    end.left = value(table.getCondition());
+    end.edges.resize(table.getNumCases());
+    for (const auto& entry : table.cases()) {
+        const uint64_t index = entry.getCaseValue()->getZExtValue();
+        if (end.left.size() != 1 || index >= end.edges.size()) {
+            refuse(table, "a switch that lower_switches() should have replaced");
+        }
+        end.edges[index] = edge(*table.getParent(), *entry.getCaseSuccessor());
+    }
+    return end;
 }
 
 // A comparison is repeated at its branch: the flags it leaves are the cheapest form of its result.
@@ -195,8 +281,18 @@ void Selector::select_branch(const llvm::BranchInst& branch) {
 Bytes Selector::value(const llvm::Value* value) {
     const auto known = values_.find(value);
     if (known != values_.end()) return known->second;
+    if (const auto* expression = llvm::dyn_cast<llvm::ConstantExpr>(value)) {
+        // Computed like any other instruction; the builder folds what the linker can know.
+        const llvm::Instruction* instruction =
+            const_cast<llvm::ConstantExpr*>(expression)->getAsInstruction();
+        const std::unique_ptr<const llvm::Instruction, void (*)(const llvm::Instruction*)> owner(
+            instruction, [](const llvm::Instruction* done) {
+                const_cast<llvm::Instruction*>(done)->deleteValue();
+            });
+        return select_instruction(*instruction);
+    }
     if (const auto* constant = llvm::dyn_cast<llvm::Constant>(value)) {
-        return constant_bytes(out_, builder_, layout_, *constant);
+        return constant_bytes(*constant);
     }
     throw Refused(
         fmt::format("{}: a value is used before its definition", function_.getName().str()));
@@ -237,7 +333,7 @@ Bytes Selector::signed_value(const llvm::Value* operand) {
 
 codegen::SourcePlace Selector::place_of(const llvm::Instruction& instruction) {
     const llvm::DebugLoc& place = instruction.getDebugLoc();
-    if (!place) return {};
+    if (!place || place.getLine() == 0) return {};
     const std::string file = place->getFilename().str();
     for (std::size_t i = 0; i < out_.files.size(); ++i) {
         if (out_.files[i] == file) return {static_cast<uint32_t>(i), place.getLine()};
@@ -247,38 +343,46 @@ codegen::SourcePlace Selector::place_of(const llvm::Instruction& instruction) {
 }
 
 void Selector::refuse(const llvm::Instruction& instruction, const std::string& what) const {
-    const llvm::DebugLoc& place = instruction.getDebugLoc();
-    const std::string where =
-        place ? fmt::format("{}:{}", place->getFilename().str(), place.getLine())
-              : function_.getParent()->getSourceFileName();
-    throw Refused(fmt::format("{}: in {}: {}", where, function_.getName().str(), what));
+    // A constant expression's instruction stands in no function.
+    ir::refuse(instruction.getParent() == nullptr ? *current_ : instruction, what);
 }
 
-Bytes constant_bytes(codegen::Module& out, codegen::Builder& builder,
-                     const llvm::DataLayout& layout, const llvm::Constant& constant) {
-    if (llvm::isa<llvm::UndefValue>(constant)) {
-        return builder.undefined(layout.getTypeStoreSize(constant.getType()));
-    }
+Bytes Selector::undefined(const llvm::Type& type) {
+    // A frozen value is the same at every use. Bits above an odd width are 0.
+    const bool odd = type.isIntegerTy() && type.getIntegerBitWidth() % 8 != 0;
+    const std::size_t size = size_of(&type);
+    return freezes_ || odd || type.isAggregateType() ? builder_.constant(0, size)
+                                                     : builder_.undefined(size);
+}
+
+Bytes Selector::constant_bytes(const llvm::Constant& constant) {
+    if (llvm::isa<llvm::UndefValue>(constant)) return undefined(*constant.getType());
     Bytes bytes;
-    for (const codegen::Datum& datum : constant_data(out, layout, constant)) {
-        if (datum.symbol == codegen::kNone) {
-            bytes.push_back(builder.constant_byte(datum.value));
-        } else {
-            bytes.push_back(builder.address(datum.symbol, datum.offset)[datum.high ? 1 : 0]);
+    try {
+        for (const codegen::Datum& datum : constant_data(out_, layout_, constant)) {
+            if (datum.symbol == codegen::kNone) {
+                bytes.push_back(builder_.constant_byte(datum.value));
+            } else {
+                bytes.push_back(builder_.address(datum.symbol, datum.offset)[datum.high ? 1 : 0]);
+            }
         }
+    } catch (const BadConstant& problem) {
+        refuse(*current_, problem.what());
     }
-    bytes.resize(layout.getTypeStoreSize(constant.getType()));
+    bytes.resize(size_of(constant.getType()));
     return bytes;
 }
 
 codegen::Module select(const llvm::Module& module) {
     codegen::Module result;
     for (const llvm::GlobalVariable& variable : module.globals()) {
-        if (variable.getName().starts_with("llvm.") || variable.isDeclaration()) continue;
+        if (variable.getName().starts_with("llvm.") || variable.isDeclarationForLinker()) continue;
         result.variables.push_back(make_variable(result, module.getDataLayout(), variable));
     }
     for (const llvm::Function& function : module) {
-        if (!function.isDeclaration()) result.functions.push_back(Selector(result, function).run());
+        if (!function.isDeclarationForLinker()) {
+            result.functions.push_back(Selector(result, function).run());
+        }
     }
     result.constructors = constructors_of(result, module);
     return result;

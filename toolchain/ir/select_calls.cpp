@@ -1,9 +1,9 @@
 // select_calls.cpp - calls: of functions, through pointers, of the processor's own instructions.
 // Depends on   selector.hpp.
 #include <fmt/format.h>
-#include <llvm/IR/InlineAsm.h>
 #include <llvm/IR/IntrinsicInst.h>
 
+#include <algorithm>
 #include <array>
 
 #include "toolchain/ir/selector.hpp"
@@ -60,38 +60,53 @@ Bytes Selector::select_processor(const std::string& name, const llvm::CallBase& 
     refuse(call, fmt::format("'{}' is not an instruction of the 8085; i85.h lists them", name));
 }
 
-Bytes Selector::select_call(const llvm::CallBase& call) {
-    const llvm::Function* callee = call.getCalledFunction();
-    if (callee != nullptr && callee->isIntrinsic()) {
-        switch (callee->getIntrinsicID()) {
-            case llvm::Intrinsic::lifetime_start:
-            case llvm::Intrinsic::lifetime_end:
-            case llvm::Intrinsic::dbg_declare:
-            case llvm::Intrinsic::dbg_value:
-            case llvm::Intrinsic::dbg_label:
-            case llvm::Intrinsic::assume:
-            case llvm::Intrinsic::experimental_noalias_scope_decl:
-                return {};
-            default:
-                refuse(call, fmt::format("'{}' is not supported", callee->getName().str()));
-        }
+Bytes Selector::select_intrinsic(const llvm::IntrinsicInst& call) {
+    if (call.isDebugOrPseudoInst()) return {};
+    if (call.getIntrinsicID() == llvm::Intrinsic::bswap) {
+        Bytes bytes = value(call.getArgOperand(0));
+        std::reverse(bytes.begin(), bytes.end());
+        return bytes;
     }
-    if (call.isInlineAsm())
-        refuse(call, "inline assembly is not supported; use the functions of i85.h");
-    if (call.getFunctionType()->isVarArg())
-        refuse(call, "a variable number of arguments needs a stack frame");
+    refuse(call, fmt::format("'{}' is not supported", call.getCalledFunction()->getName().str()));
+}
+
+Bytes Selector::select_call(const llvm::CallBase& call) {
+    if (const auto* intrinsic = llvm::dyn_cast<llvm::IntrinsicInst>(&call)) {
+        return select_intrinsic(*intrinsic);
+    }
+    if (call.isInlineAsm()) return {};  // an empty one; others are refused before
+    const auto* callee =
+        llvm::dyn_cast<llvm::Function>(call.getCalledOperand()->stripPointerCastsAndAliases());
     if (callee != nullptr && callee->getName().starts_with("__i85_")) {
         return select_processor(callee->getName().str(), call);
     }
     std::vector<Bytes> arguments;
     for (const llvm::Use& argument : call.args()) arguments.push_back(value(argument.get()));
-    const std::size_t result_size = call.getType()->isVoidTy() ? 0 : size_of(call.getType());
-    if (callee != nullptr) {
-        return builder_.call(out_.intern(callee->getName().str()), std::move(arguments),
-                             result_size);
+    std::size_t result_size = call.getType()->isVoidTy() ? 0 : size_of(call.getType());
+    if (callee == nullptr) {
+        return builder_.call_indirect(value(call.getCalledOperand()), std::move(arguments),
+                                      result_size);
     }
-    return builder_.call_indirect(value(call.getCalledOperand()), std::move(arguments),
-                                  result_size);
+    if (!callee->isDeclaration()) {
+        check_prototype(call, *callee);
+        const llvm::Type* type = callee->getReturnType();
+        result_size = type->isVoidTy() ? 0 : size_of(type);
+    }
+    return builder_.call(out_.intern(callee->getName().str()), std::move(arguments), result_size);
+}
+
+// Calls through another type happen in C without prototypes.
+void Selector::check_prototype(const llvm::CallBase& call, const llvm::Function& callee) const {
+    const auto size = [&](const llvm::Type* type) { return type->isVoidTy() ? 0 : size_of(type); };
+    bool fits = call.arg_size() == callee.arg_size() &&
+                (call.use_empty() || size(call.getType()) == size(callee.getReturnType()));
+    for (unsigned i = 0; fits && i < call.arg_size(); ++i) {
+        fits = size(call.getArgOperand(i)->getType()) == size(callee.getArg(i)->getType());
+    }
+    if (!fits) {
+        refuse(call, fmt::format("'{}' is called with other parameters than it has: declare it",
+                                 callee.getName().str()));
+    }
 }
 
 }  // namespace toolchain::ir

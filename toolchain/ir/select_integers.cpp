@@ -5,6 +5,7 @@
 #include <llvm/IR/GetElementPtrTypeIterator.h>
 
 #include <bit>
+#include <vector>
 
 #include "toolchain/ir/selector.hpp"
 
@@ -18,6 +19,35 @@ namespace {
 
 unsigned bits_of(const llvm::Value& value) {
     return value.getType()->getIntegerBitWidth();
+}
+
+// Digits -1, 0 and 1, from the lowest on, no two beside each other other than 0.
+std::vector<int> signed_digits(uint64_t factor, std::size_t bits) {
+    std::vector<int> digits;
+    for (std::size_t i = 0; i < bits; ++i) {
+        int digit = static_cast<int>(factor & 1);
+        // 3, 7, 15 ... end as 4 - 1, 8 - 1, 16 - 1.
+        if (digit != 0 && (factor & 2) != 0) digit = -1;
+        factor = (factor >> 1) + (digit < 0 ? 1U : 0U);
+        digits.push_back(digit);
+    }
+    return digits;
+}
+
+// T-states of the shifts and additions, roughly: DAD for words, MOV and RAL or ADC for other bytes.
+unsigned chain_cost(const std::vector<int>& digits, std::size_t size) {
+    const unsigned shift = size == 2 ? 10 : static_cast<unsigned>(size) * 12;
+    const unsigned add = size == 2 ? 18 : static_cast<unsigned>(size) * 16;
+    unsigned cost = 0;
+    unsigned pending = 0;
+    for (const int digit : digits) {
+        if (digit != 0) {
+            cost += add + pending % 8 * shift;
+            pending = 0;
+        }
+        ++pending;
+    }
+    return cost;
 }
 
 }  // namespace
@@ -56,27 +86,32 @@ Bytes Selector::select_binary(const llvm::BinaryOperator& operation) {
                                   operation.getOpcodeName()));
 }
 
-// Shifts and additions while they are cheaper than a call: few one bits.
+// Horner's scheme over the digits.
 Bytes Selector::multiply_by_constant(const Bytes& value, uint64_t factor) {
+    const std::vector<int> digits = signed_digits(factor, value.size() * 8);
     Bytes sum = builder_.constant(0, value.size());
-    for (unsigned bit = 0; bit < 64; ++bit) {
-        if ((factor >> bit & 1) != 0) sum = builder_.add(builder_.shift_left(value, bit), sum);
+    unsigned shift = 0;
+    bool empty = true;
+    for (std::size_t i = digits.size(); i-- > 0;) {
+        if (!empty) ++shift;
+        if (digits[i] == 0) continue;
+        sum = builder_.shift_left(sum, shift);
+        sum = digits[i] > 0 ? builder_.add(sum, value) : builder_.subtract(sum, value);
+        shift = 0;
+        empty = false;
     }
-    return sum;
+    return builder_.shift_left(sum, shift);
 }
 
 Bytes Selector::select_multiply(const llvm::BinaryOperator& operation) {
-    constexpr int kFewBits = 2;
     Bytes left = value(operation.getOperand(0));
     Bytes right = value(operation.getOperand(1));
     if (builder_.value_of(left)) std::swap(left, right);
     if (const auto factor = builder_.value_of(right)) {
-        if (std::popcount(*factor) <= kFewBits) return multiply_by_constant(left, *factor);
-        const Bytes negative = builder_.subtract(builder_.constant(0, right.size()), right);
-        const auto opposite = builder_.value_of(negative);
-        if (opposite && std::popcount(*opposite) <= 1) {
-            return builder_.subtract(builder_.constant(0, left.size()),
-                                     multiply_by_constant(left, *opposite));
+        constexpr unsigned kCostPerBit = 25;  // of the routines
+        const auto bits = static_cast<unsigned>(right.size() * 8);
+        if (chain_cost(signed_digits(*factor, bits), right.size()) <= kCostPerBit * bits) {
+            return multiply_by_constant(left, *factor);
         }
     }
     const std::size_t size = left.size();
@@ -115,6 +150,7 @@ Bytes Selector::select_divide(const llvm::BinaryOperator& operation) {
     const unsigned bits = bits_of(operation);
     const std::size_t size = (bits + 7) / 8;
     const std::size_t wide = std::bit_ceil(size);
+    if (size > 8) refuse(operation, "a division of more than 64 bits");
     const auto operand = [&](unsigned index) {
         const Bytes bytes = value(operation.getOperand(index));
         return is_signed ? sign_from(bytes, bits, wide) : builder_.zero_extended(bytes, wide);
@@ -134,12 +170,16 @@ Bytes Selector::select_shift(const llvm::BinaryOperator& operation) {
     const Bytes count = value(operation.getOperand(1));
     Bytes shifted = value(operation.getOperand(0));
     if (opcode == Instruction::AShr) shifted = sign_from(shifted, bits, shifted.size());
-    if (const auto number = builder_.value_of(count)) {
+    const std::size_t known = std::min<std::size_t>(count.size(), 8);
+    const Bytes low_count(count.begin(), count.begin() + static_cast<std::ptrdiff_t>(known));
+    if (const auto number = builder_.value_of(low_count);
+        number && builder_.leading_zero_bytes(count) >= count.size() - known) {
         const auto amount = static_cast<unsigned>(std::min<uint64_t>(*number, bits));
         if (opcode == Instruction::Shl) return builder_.shift_left(shifted, amount);
         if (opcode == Instruction::LShr) return builder_.shift_right(shifted, amount);
         return builder_.shift_right_signed(shifted, amount);
     }
+    if (shifted.size() > 8) refuse(operation, "a shift of more than 64 bits by a variable");
     const std::size_t wide = std::bit_ceil(shifted.size());
     const char* name = opcode == Instruction::Shl    ? "shl"
                        : opcode == Instruction::LShr ? "lshr"
@@ -157,10 +197,10 @@ Bytes Selector::select_cast(const llvm::CastInst& cast) {
     const std::size_t size = size_of(cast.getType());
     switch (cast.getOpcode()) {
         case llvm::Instruction::ZExt:
-        case llvm::Instruction::PtrToInt:
         case llvm::Instruction::IntToPtr:
         case llvm::Instruction::BitCast:
             return builder_.zero_extended(bytes, size);
+        case llvm::Instruction::PtrToInt:
         case llvm::Instruction::Trunc:
             return masked(builder_.zero_extended(bytes, size), bits_of(cast));
         case llvm::Instruction::SExt:
@@ -234,13 +274,7 @@ Bytes Selector::select_address(const llvm::GetElementPtrInst& address) {
             continue;
         }
         Bytes scaled = sign_from(value(operand), bits_of(*operand), kPointerSize);
-        if (std::popcount(stride) <= 2) {
-            scaled = multiply_by_constant(scaled, stride);
-        } else {
-            scaled =
-                runtime("__mul16", {scaled, builder_.constant(stride, kPointerSize)}, kPointerSize);
-        }
-        sum = builder_.add(sum, scaled);
+        sum = builder_.add(sum, multiply_by_constant(scaled, stride));
     }
     return builder_.add(sum, builder_.constant(static_cast<uint64_t>(fixed), kPointerSize));
 }

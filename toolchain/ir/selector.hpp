@@ -4,6 +4,7 @@
 
 #include <llvm/IR/Function.h>
 #include <llvm/IR/Instructions.h>
+#include <llvm/IR/IntrinsicInst.h>
 
 #include <map>
 #include <string>
@@ -26,9 +27,12 @@ private:
 
     void make_blocks();
     void fill_block(const llvm::BasicBlock& block);
-    void select_instruction(const llvm::Instruction& instruction);
+    void add_parameter(codegen::Block& block, const Bytes& bytes);
+    [[nodiscard]] Bytes select_instruction(const llvm::Instruction& instruction);
+    [[nodiscard]] Bytes select_variable(const llvm::AllocaInst& variable);
     void select_terminator(const llvm::Instruction& instruction);
     void select_branch(const llvm::BranchInst& branch);
+    [[nodiscard]] codegen::Terminator table_of(const llvm::SwitchInst& table);
     [[nodiscard]] codegen::Edge edge(const llvm::BasicBlock& from, const llvm::BasicBlock& to);
 
     // Integers: canonical, bits above an odd width are 0.
@@ -41,6 +45,8 @@ private:
     [[nodiscard]] Bytes select_compare(const llvm::ICmpInst& compare);
     [[nodiscard]] Bytes select_address(const llvm::GetElementPtrInst& address);
     [[nodiscard]] Bytes select_call(const llvm::CallBase& call);
+    [[nodiscard]] Bytes select_intrinsic(const llvm::IntrinsicInst& call);
+    void check_prototype(const llvm::CallBase& call, const llvm::Function& callee) const;
     [[nodiscard]] Bytes select_processor(const std::string& name, const llvm::CallBase& call);
     [[nodiscard]] Bytes runtime(const std::string& name, std::vector<Bytes> arguments,
                                 std::size_t result_size);
@@ -53,6 +59,8 @@ private:
     [[nodiscard]] Comparison comparison(const llvm::ICmpInst& compare);
 
     [[nodiscard]] Bytes value(const llvm::Value* value);
+    [[nodiscard]] Bytes constant_bytes(const llvm::Constant& constant);
+    [[nodiscard]] Bytes undefined(const llvm::Type& type);
     [[nodiscard]] Bytes signed_value(const llvm::Value* value);
     [[nodiscard]] Bytes masked(Bytes bytes, unsigned bits);
     [[nodiscard]] Bytes sign_from(const Bytes& bytes, unsigned bits, std::size_t size);
@@ -69,11 +77,8 @@ private:
     codegen::Builder builder_{result_};
     std::map<const llvm::Value*, Bytes> values_;
     std::map<const llvm::BasicBlock*, codegen::BlockId> blocks_;
+    const llvm::Instruction* current_ = nullptr;  ///< for messages
+    bool freezes_ = false;
 };
-
-/// The bytes of a constant: numbers, addresses, aggregates. @errors Refused
-[[nodiscard]] codegen::Bytes constant_bytes(codegen::Module& out, codegen::Builder& builder,
-                                            const llvm::DataLayout& layout,
-                                            const llvm::Constant& constant);
 
 }  // namespace toolchain::ir

@@ -68,20 +68,20 @@ uint8_t Interpreter::read(const Frame& frame, uint32_t byte) const {
     }
 }
 
-uint64_t Interpreter::number(const Frame& frame, const Bytes& bytes) const {
-    uint64_t value = 0;
+Interpreter::Wide Interpreter::number(const Frame& frame, const Bytes& bytes) const {
+    Wide value = 0;
     for (std::size_t i = bytes.size(); i-- > 0;) value = value << 8 | read(frame, bytes[i]);
     return value;
 }
 
-int64_t Interpreter::signed_number(const Frame& frame, const Bytes& bytes) const {
-    const unsigned unused = 64 - static_cast<unsigned>(bytes.size()) * 8;
-    return static_cast<int64_t>(number(frame, bytes) << unused) >> unused;
+Interpreter::SignedWide Interpreter::signed_number(const Frame& frame, const Bytes& bytes) const {
+    const unsigned unused = 128 - static_cast<unsigned>(bytes.size()) * 8;
+    return static_cast<SignedWide>(number(frame, bytes) << unused) >> unused;
 }
 
-void Interpreter::set(Frame& frame, const Bytes& bytes, uint64_t value) {
+void Interpreter::set(Frame& frame, const Bytes& bytes, Wide value) {
     for (std::size_t i = 0; i < bytes.size(); ++i) {
-        frame.values[bytes[i]] = static_cast<uint8_t>(i < 8 ? value >> 8 * i : uint64_t{0});
+        frame.values[bytes[i]] = static_cast<uint8_t>(i < 16 ? value >> 8 * i : Wide{0});
     }
 }
 
@@ -148,8 +148,8 @@ std::vector<uint8_t> Interpreter::run_blocks(Frame& frame, const std::vector<uin
 
 void Interpreter::execute(Frame& frame, const Operation& operation) {
     if (++steps > step_limit) throw std::runtime_error("too many steps");
-    const uint64_t left = number(frame, operation.left);
-    const uint64_t right = number(frame, operation.right);
+    const Wide left = number(frame, operation.left);
+    const Wide right = number(frame, operation.right);
     switch (operation.opcode) {
         case Opcode::add:
             set(frame, operation.results, left + right);
@@ -174,7 +174,7 @@ void Interpreter::execute(Frame& frame, const Operation& operation) {
             break;
         case Opcode::shift_right_signed:
             set(frame, operation.results,
-                static_cast<uint64_t>(signed_number(frame, operation.left) >> operation.immediate));
+                static_cast<Wide>(signed_number(frame, operation.left) >> operation.immediate));
             break;
         case Opcode::sign_fill:
             set(frame, operation.results, (left & 0x80) != 0 ? 0xFF : 0);
@@ -229,9 +229,12 @@ void Interpreter::call_symbol(Frame& frame, const Operation& operation, SymbolId
 }
 
 bool Interpreter::call_runtime(Frame& frame, const Operation& operation, const std::string& name) {
-    const auto argument = [&](std::size_t i) { return number(frame, operation.arguments.at(i)); };
+    // The routines' operands have 64 bits at most.
+    const auto argument = [&](std::size_t i) {
+        return static_cast<uint64_t>(number(frame, operation.arguments.at(i)));
+    };
     const auto signed_argument = [&](std::size_t i) {
-        return signed_number(frame, operation.arguments.at(i));
+        return static_cast<int64_t>(signed_number(frame, operation.arguments.at(i)));
     };
     if (name == "__memcpy" || name == "__memmove") {
         copy_block(argument(0), argument(1), argument(2));
@@ -250,7 +253,7 @@ bool Interpreter::call_runtime(Frame& frame, const Operation& operation, const s
     const Bytes high(operation.results.begin() + static_cast<std::ptrdiff_t>(low.size()),
                      operation.results.end());
     if (name.starts_with("__mul") || name.starts_with("__umul")) {
-        set(frame, operation.results, argument(0) * argument(1));
+        set(frame, operation.results, Wide{argument(0)} * argument(1));
     } else if (name.starts_with("__udiv")) {
         const uint64_t divisor = argument(1);
         set(frame, low, divisor == 0 ? 0 : argument(0) / divisor);

@@ -33,6 +33,9 @@ private:
     using Bytes = toolchain::codegen::Bytes;
     using Function = toolchain::codegen::Function;
     using Operation = toolchain::codegen::Operation;
+    // Intermediate products of 64-bit values.
+    __extension__ using Wide = unsigned __int128;
+    __extension__ using SignedWide = __int128;
     struct Frame {
         const Function& function;
         std::vector<uint8_t> values;
@@ -41,9 +44,9 @@ private:
 
     void place(toolchain::codegen::SymbolId symbol, uint32_t size);
     uint8_t read(const Frame& frame, uint32_t byte) const;
-    uint64_t number(const Frame& frame, const Bytes& bytes) const;
-    int64_t signed_number(const Frame& frame, const Bytes& bytes) const;
-    static void set(Frame& frame, const Bytes& bytes, uint64_t value);
+    Wide number(const Frame& frame, const Bytes& bytes) const;
+    SignedWide signed_number(const Frame& frame, const Bytes& bytes) const;
+    static void set(Frame& frame, const Bytes& bytes, Wide value);
     std::vector<uint8_t> run(const Function& function, const std::vector<uint8_t>& arguments);
     std::vector<uint8_t> run_blocks(Frame& frame, const std::vector<uint8_t>& arguments);
     void execute(Frame& frame, const Operation& operation);

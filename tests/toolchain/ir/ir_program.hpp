@@ -38,13 +38,12 @@ inline toolchain::codegen::Module to_mir(llvm::Module& module) {
     return mir;
 }
 
-inline toolchain::codegen::Module to_mir(const std::string& text) {
-    llvm::LLVMContext context;
+inline std::unique_ptr<llvm::Module> parse(const std::string& text, llvm::LLVMContext& context) {
     llvm::SMDiagnostic problem;
-    const std::unique_ptr<llvm::Module> module =
+    std::unique_ptr<llvm::Module> module =
         llvm::parseAssemblyString(kHead + text, problem, context);
     if (!module) throw std::runtime_error(problem.getMessage().str());
-    return to_mir(*module);
+    return module;
 }
 
 /// The same behind lower_calls(): calls through registers, narrow runtime routines.
@@ -58,5 +57,25 @@ inline toolchain::codegen::Module lowered(toolchain::codegen::Module mir) {
     }
     return mir;
 }
+
+inline toolchain::codegen::Module to_mir(const std::string& text) {
+    llvm::LLVMContext context;
+    return to_mir(*parse(text, context));
+}
+
+/// Why a module is not compiled, or "accepted".
+inline std::string refusal(const std::string& text) {
+    try {
+        static_cast<void>(to_mir(text));
+    } catch (const toolchain::ir::Refused& refused) {
+        return refused.what();
+    }
+    return "accepted";
+}
+
+/// C++20 as i85cc reads it: the front end's IR, loop bounds taken, then optimised at `level`
+/// (0, 1, 2, s) by us. @errors std::runtime_error: clang's failure
+std::unique_ptr<llvm::Module> compile(const std::string& source, const std::string& level,
+                                      llvm::LLVMContext& context);
 
 }  // namespace ir_test

@@ -257,36 +257,135 @@ define void @f() {
               "    return []\n");
 }
 
-/// The message for a function with the given body.
-std::string refusal(const std::string& text) {
-    try {
-        static_cast<void>(to_mir(text));
-    } catch (const toolchain::ir::Refused& refused) {
-        return refused.what();
-    }
-    return "accepted";
+TEST(Select, ConstantExpressionsAreComputedWhereTheLinkerCannot) {
+    const auto mir = to_mir(R"(
+@a = global [300 x i8] zeroinitializer
+@b = global i8 0
+define i16 @distance() {
+  ret i16 sub (i16 ptrtoint (ptr @b to i16), i16 ptrtoint (ptr @a to i16))
+}
+define i8 @low() {
+  ret i8 trunc (i16 ptrtoint (ptr getelementptr (i8, ptr @a, i16 5) to i16) to i8)
+}
+define i32 @wide() {
+  ret i32 ptrtoint (ptr @b to i32)
+})");
+    Interpreter interpreter(mir);  // variables lie one behind the other from 8000H on
+    EXPECT_EQ(interpreter.call("distance"), 300U);
+    EXPECT_EQ(interpreter.call("low"), 5U);
+    EXPECT_EQ(interpreter.call("wide"), 0x8000U + 300U);
 }
 
-TEST(Select, RefusesWithReason) {
-    EXPECT_NE(refusal("define float @f(float %a) {\n %r = fadd float %a, %a\n ret float %r\n}")
-                  .find("no floating point"),
-              std::string::npos);
-    EXPECT_NE(
-        refusal(
-            "define void @f(i16 %n) {\n %p = alloca i8, i16 %n\n store i8 0, ptr %p\n ret void\n}")
-            .find("known only at run time"),
-        std::string::npos);
-    EXPECT_NE(
-        refusal("declare void @g(...)\ndefine void @f() {\n call void (...) @g()\n ret void\n}")
-            .find("variable number of arguments"),
-        std::string::npos);
-    EXPECT_NE(refusal("declare i8 @__i85_in(i8)\ndefine i8 @f(i8 %p) {\n %r = call i8 @__i85_in(i8 "
-                      "%p)\n ret i8 %r\n}")
-                  .find("known at compile time"),
-              std::string::npos);
-    EXPECT_NE(refusal("define void @f() {\n call void asm sideeffect \"nop\", \"\"()\n ret void\n}")
-                  .find("inline assembly"),
-              std::string::npos);
+TEST(Select, ProductsWithConstants) {
+    const std::vector<uint64_t> factors = {0,   1,    3,    7,    10,    11,     0x55,  0x7F,
+                                           100, 0xFF, 1000, 4095, 12345, 0x7FFF, 0xFFFF};
+    for (const unsigned bits : {8U, 16U, 32U}) {
+        for (const uint64_t factor : factors) {
+            const APInt constant = APInt(64, factor).zextOrTrunc(bits);
+            const auto mir =
+                to_mir(fmt::format("define i{0} @f(i{0} %a) {{\n"
+                                   " %r = mul i{0} %a, {1}\n ret i{0} %r\n}}",
+                                   bits, constant.getSExtValue()));
+            Interpreter interpreter(mir);
+            for (const APInt& value : corners(bits)) {
+                ASSERT_EQ(interpreter.call("f", {value.getZExtValue()}),
+                          (value * constant).getZExtValue())
+                    << bits << " bits, " << factor;
+            }
+        }
+    }
+}
+
+TEST(Select, FrozenValuesAreTheSameAtEveryUse) {
+    const auto mir = to_mir(R"(
+define i16 @f(i1 %c, i16 %x) {
+entry:
+  br i1 %c, label %set, label %join
+set:
+  br label %join
+join:
+  %v = phi i16 [ undef, %entry ], [ %x, %set ]
+  %w = freeze i16 %v
+  %d = sub i16 %w, %w
+  ret i16 %d
+})");
+    for (const auto& block : mir.functions.front().blocks) {
+        for (const auto& edge : block.terminator.edges) {
+            for (const auto byte : edge.arguments) {
+                EXPECT_NE(mir.functions.front().bytes[byte].kind,
+                          toolchain::codegen::ByteInfo::Kind::undefined);
+            }
+        }
+    }
+}
+
+TEST(Select, UndefinedBitsAboveAnOddWidthAreZero) {
+    const auto mir = to_mir(
+        "define i16 @f() {\n %r = zext i1 undef to i16\n ret i16 %r\n}\n"
+        "define i1 @g() {\n ret i1 poison\n}");
+    Interpreter interpreter(mir);
+    EXPECT_LE(interpreter.call("g"), 1U);
+}
+
+TEST(Select, BlocksCarryTheSizesOfTheirParameters) {
+    const auto mir = to_mir(R"(
+define i32 @f(i8 %n, i32 %s) {
+entry:
+  br label %loop
+loop:
+  %i = phi i8 [ %n, %entry ], [ %next, %loop ]
+  %t = phi i32 [ %s, %entry ], [ %u, %loop ]
+  %u = add i32 %t, %s
+  %next = add i8 %i, -1
+  %more = icmp ne i8 %next, 0
+  br i1 %more, label %loop, label %end
+end:
+  ret i32 %u
+})");
+    const auto& blocks = mir.functions.front().blocks;
+    EXPECT_EQ(blocks[0].parameter_sizes, (std::vector<uint32_t>{1, 4}));
+    EXPECT_EQ(blocks[1].parameter_sizes, (std::vector<uint32_t>{1, 4}));
+    EXPECT_EQ(blocks[1].loop_depth, 1U);
+    EXPECT_TRUE(blocks[2].parameter_sizes.empty());
+}
+
+TEST(Select, TakenAddressesAreMarked) {
+    const auto mir = to_mir(R"(
+@p = global ptr @taken
+@llvm.used = appending global [1 x ptr] [ptr @kept], section "llvm.metadata"
+@llvm.global_ctors = appending global [2 x { i32, ptr, ptr }] [
+  { i32, ptr, ptr } { i32 65535, ptr @late, ptr null },
+  { i32, ptr, ptr } { i32 101, ptr @early, ptr null }]
+@other_name = alias void (), ptr @called
+define void @taken() {
+  ret void
+}
+define void @kept() {
+  ret void
+}
+define void @late() {
+  ret void
+}
+define void @early() {
+  call void @other_name()
+  ret void
+}
+define void @called() {
+  ret void
+}
+define ptr @through_alias() {
+  ret ptr @alias_of_aliased
+}
+@alias_of_aliased = alias void (), ptr @aliased
+define void @aliased() {
+  ret void
+})");
+    std::set<std::string> taken;
+    for (const auto& function : mir.functions) {
+        if (function.address_taken) taken.insert(mir.symbols[function.symbol]);
+    }
+    EXPECT_EQ(taken, (std::set<std::string>{"taken", "aliased"}));
+    EXPECT_NE(print(mir).find("call called"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,217 @@
+// What i85cc refuses: one clear message with file and line, exit code 1, no files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "toolchain/driver/process.hpp"
+#include "toolchain/driver/work_folder.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using toolchain::driver::Command;
+using toolchain::driver::Outcome;
+
+struct Refusal {
+    const char* name;
+    const char* file;
+    std::string text;
+    std::vector<std::string> pieces;  ///< of the message
+    std::vector<std::string> options{};
+};
+
+void PrintTo(const Refusal& refusal, std::ostream* stream) {
+    *stream << refusal.name;
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        names.insert(entry.path().filename().string());
+    }
+    return names;
+}
+
+/// Runs i85cc in a folder.
+Outcome run_in(const fs::path& folder, const std::vector<std::string>& arguments) {
+    const toolchain::driver::WorkFolder logs;
+    Command command{{"env", "-C", folder.string(), I85CC_PROGRAM}, logs.path() / "log"};
+    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
+    const std::vector<Command> commands = {command};
+    return toolchain::driver::run_all(commands, 1).at(0);
+}
+
+class Refusals : public testing::TestWithParam<Refusal> {};
+
+TEST_P(Refusals, AreOneMessageAndNoFiles) {
+    const Refusal& refusal = GetParam();
+    const toolchain::driver::WorkFolder folder;
+    std::ofstream(folder.path() / refusal.file) << refusal.text;
+    std::vector<std::string> arguments = refusal.options;
+    arguments.insert(arguments.end(), {"-o", "out.hex", refusal.file});
+    const Outcome outcome = run_in(folder.path(), arguments);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.signal, 0);
+    EXPECT_THAT(outcome.messages, HasSubstr("i85cc: "));
+    for (const std::string& piece : refusal.pieces) EXPECT_THAT(outcome.messages, HasSubstr(piece));
+    EXPECT_EQ(names_in(folder.path()), std::set<std::string>{refusal.file});
+}
+
+const std::string kMain = "int main(void) { return 0; }\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    FrontEnd, Refusals,
+    testing::Values(
+        Refusal{"SyntaxError",
+                "a.c",
+                "int main(void) {\n  return 0\n}\n",
+                {"a.c:2:11: error: expected ';' after return statement",
+                 "i85cc: a.c: not compiled: see the messages above"}},
+        Refusal{"ThreadLocal",
+                "a.c",
+                "_Thread_local int t;\n" + kMain,
+                {"a.c:1:1: error: thread-local storage is not supported"}},
+        Refusal{"Exception",
+                "a.cpp",
+                "int main() {\n  throw 1;\n}\n",
+                {"a.cpp:2:3: error: cannot use 'throw' with exceptions disabled"}},
+        Refusal{"RunTimeTypes",
+                "a.cpp",
+                "struct A { virtual void f(); };\nstruct B : A {};\n"
+                "B* g(A* a) { return dynamic_cast<B*>(a); }\nint main() {}\n",
+                {"a.cpp:3:21: error: use of dynamic_cast requires -frtti"}},
+        Refusal{"InterruptWithParameters",
+                "a.c",
+                "#include <i85.h>\nI85_INTERRUPT(I85_TRAP) void f(int a) { (void)a; }\n" + kMain,
+                {"a.c:2:30: error: ",
+                 "'interrupt' attribute only applies to functions that have no "
+                 "parameters"}},
+        Refusal{"MissingHeader",
+                "a.c",
+                "#include <stdio.h>\n" + kMain,
+                {"a.c:1:10: fatal error: 'stdio.h' file not found"}}),
+    [](const auto& test) { return test.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Names, Refusals,
+    testing::Values(
+        Refusal{"UndefinedFunction",
+                "a.c",
+                "int f(int);\nint main(void) {\n  return f(1);\n}\n",
+                {"i85cc: a.c:3: 'f' is used but not defined: add the source that defines it"}},
+        Refusal{"UndefinedVariable",
+                "a.cpp",
+                "namespace n { extern int v; }\nint main() {\n  return n::v;\n}\n",
+                {"i85cc: a.cpp:3: 'n::v' is used but not defined"}},
+        Refusal{
+            "Heap",
+            "a.cpp",
+            "int* volatile p;\nint main() {\n  p = new int;\n}\n",
+            {"i85cc: a.cpp:3: 'operator new(unsigned int)' is used but not defined: there is no "
+             "heap: use objects with static storage"}},
+        Refusal{"Atomic",
+                "a.c",
+                "_Atomic int x;\nint main(void) {\n  return x;\n}\n",
+                {"i85cc: a.c:3: '__atomic_load' is used but not defined: there are no atomic "
+                 "operations"}},
+        Refusal{"NoMain",
+                "a.c",
+                "int f(void) { return 0; }\n",
+                {"i85cc: no source defines 'main': it is where the program starts"}},
+        Refusal{"KeepOfNothing",
+                "a.c",
+                kMain,
+                {"i85cc: 'f' is to be kept, but no source defines it: check the name"},
+                {"--keep", "f"}},
+        Refusal{"NoSuchVector",
+                "a.c",
+                "#include <i85.h>\n\nI85_INTERRUPT(4) void f(void) {}\n" + kMain,
+                {"i85cc: a.c:3: 'f': the 8085 has no interrupt at 04H"}},
+        Refusal{"OneVectorTwice",
+                "a.c",
+                "#include <i85.h>\nI85_INTERRUPT(I85_TRAP) void f(void) {}\n"
+                "I85_INTERRUPT(I85_TRAP) void g(void) {}\n" +
+                    kMain,
+                {"i85cc: a.c:3: 'f' and 'g' both serve the interrupt at 24H: keep one"}},
+        Refusal{"CallOfAnInterruptFunction",
+                "a.c",
+                "#include <i85.h>\nI85_INTERRUPT(I85_TRAP) void f(void) {}\n"
+                "int main(void) {\n  f();\n}\n",
+                {"i85cc: a.c:4: the interrupt function 'f' is called"}},
+        Refusal{"Constructor",
+                "a.cpp",
+                "int f();\nint f() { return *(volatile int*)0x8000; }\nstruct A { int n = f(); };\n"
+                "A object;\nint main() { return object.n; }\n",
+                {"i85cc: a.cpp:4: 'object' is constructed at run time, and --no-constructors "
+                 "forbids it: make it constinit"},
+                {"--no-constructors"}}),
+    [](const auto& test) { return test.param.name; });
+
+// -- The command line and files ------------------------------------------------------------------
+
+class Program : public testing::Test {
+protected:
+    Program() { std::ofstream(path() / "a.c") << kMain; }
+    [[nodiscard]] const fs::path& path() const { return folder_.path(); }
+    [[nodiscard]] Outcome run(const std::vector<std::string>& arguments) const {
+        return run_in(path(), arguments);
+    }
+
+private:
+    toolchain::driver::WorkFolder folder_;
+};
+
+TEST_F(Program, RefusesUnknownOptions) {
+    const Outcome outcome = run({"--fast", "-o", "out.hex", "a.c"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.messages, "i85cc: --fast: unknown option: see i85cc --help\n");
+}
+
+TEST_F(Program, RefusesSourcesThatCannotBeRead) {
+    const Outcome outcome = run({"-o", "out.hex", "b.c"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.messages,
+              "i85cc: b.c: cannot be read: No such file or directory: check the path\n");
+}
+
+TEST_F(Program, ExplainsItself) {
+    const Outcome help = run({"--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.messages, testing::StartsWith("i85cc [OPTIONS] -o OUT.hex SOURCES..."));
+    const Outcome version = run({"--version"});
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_THAT(version.messages, testing::MatchesRegex("i85cc [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST_F(Program, PrintsStagesOrWritesThem) {
+    const Outcome printed = run({"--emit=mir", "a.c"});
+    EXPECT_EQ(printed.exit_code, 0);
+    EXPECT_THAT(printed.messages, HasSubstr("function main"));
+    EXPECT_EQ(run({"--emit=mir", "-o", "a.mir", "a.c"}).messages, "");
+    std::ifstream file(path() / "a.mir");
+    EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), printed.messages);
+}
+
+TEST_F(Program, LeavesNoTemporaryFiles) {
+    const fs::path temporary = path() / "tmp";
+    fs::create_directory(temporary);
+    std::ofstream(path() / "bad.c") << "int main(void) { return }";
+    const std::string setting = "TMPDIR=" + temporary.string();
+    for (const char* source : {"a.c", "bad.c"}) {
+        const toolchain::driver::WorkFolder logs;
+        const std::vector<Command> commands = {
+            {{"env", "-C", path().string(), setting, I85CC_PROGRAM, "--emit=mir", source},
+             logs.path() / "log"}};
+        EXPECT_EQ(toolchain::driver::run_all(commands, 1).at(0).exit_code,
+                  source == std::string("bad.c") ? 1 : 0);
+        EXPECT_EQ(names_in(temporary), std::set<std::string>{});
+    }
+}
+
+}  // namespace

@@ -1,0 +1,29 @@
+// passes.hpp - the passes of prepare(), one a file; prepare.cpp has their order.
+// Depends on   libLLVM 19.
+// Design note  docs/design/ir-passes.md
+#pragma once
+
+namespace llvm {
+class Function;
+class Module;
+}  // namespace llvm
+
+namespace toolchain::ir {
+
+/// Arguments passed by value in memory: the caller makes the copy, in a variable of its own.
+void copy_by_value_arguments(llvm::Function& function);
+
+/// Intrinsics become instructions, calls of the runtime, or nothing. Traps halt for ever.
+void expand_intrinsics(llvm::Function& function);
+
+/// Multiplications of more than 64 bits become sums of 32-bit products.
+void expand_wide_products(llvm::Function& function);
+
+/// Switches become trees of comparisons and dense tables: a switch is left only with an i8
+/// condition, cases 0, 1, 2 ... and a default that is never reached.
+void lower_switches(llvm::Function& function);
+
+/// Each select becomes a branch.
+void expand_selects(llvm::Function& function);
+
+}  // namespace toolchain::ir
