@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -45,9 +46,11 @@ public:
 private:
     Coder enter() {
         Coder coder(facts_, block_facts_, wishes_, setting_.byte_cost);
+        coder.only_cost = setting_.only_cost;
         coder.state.in_slot = Bits(block_facts_.relevant.size());
         for (const ByteId byte : block_facts_.live_in) {
-            if (setting_.entry->in_slot(byte)) coder.state.in_slot.set(block_facts_.local.at(byte));
+            if (setting_.entry->in_slot(byte))
+                coder.state.in_slot.set(block_facts_.local.find(byte));
         }
         for (const Register which : kRegisters) {
             coder.set(which, setting_.entry->registers[static_cast<unsigned>(which)]);
@@ -66,14 +69,14 @@ private:
             const Contract& target = (*setting_.contracts)[edges[i].target];
             for (const ByteId byte : facts_.blocks[edges[i].target].live_in) {
                 const ByteId source = passed_for(facts_.function, edges[i], byte);
-                const auto at = block_facts_.local.find(source);
-                if (at == block_facts_.local.end()) continue;
+                const uint32_t at = block_facts_.local.find(source);
+                if (at == kNone) continue;
                 if (target.in_slot(byte) && facts_.same_place(byte, source)) {
-                    weight[at->second] += block_facts_.edge_probability[i];
+                    weight[at] += block_facts_.edge_probability[i];
                 }
                 for (const Register which : kRegisters) {
                     if (target.registers[static_cast<unsigned>(which)] == byte) {
-                        wishes_.registers[at->second] |= set_of(which);
+                        wishes_.registers[at] |= set_of(which);
                     }
                 }
             }
@@ -98,8 +101,7 @@ private:
             if (use == kNone || use < coder.position) continue;
             const double distance = use - coder.position;
             sum += (coder.in_slot(byte) ? 6.0 : 12.0) / (1.5 + 0.25 * distance);
-            const auto at = block_facts_.local.find(byte);
-            if ((wishes_.registers[at->second] & set_of(which)) != 0) sum += 4;
+            if ((wishes_.registers[block_facts_.local.find(byte)] & set_of(which)) != 0) sum += 4;
         }
         return sum;
     }
@@ -117,12 +119,15 @@ private:
                     continue;
                 }
                 for (CodeItem& item : way.items) place(item, operation.place);
-                links_.push_back({candidate.code, std::move(way.items)});
-                way.items.clear();
+                if (!setting_.only_cost) {
+                    links_.push_back({candidate.code, std::move(way.items)});
+                    way.items.clear();
+                }
                 way.position = position + 1;
                 drop_dead(way);
                 const double score = way.cost - promise(way);
-                next.push_back({std::move(way), &links_.back(), score});
+                next.push_back(
+                    {std::move(way), setting_.only_cost ? nullptr : &links_.back(), score});
             }
         }
         if (next.empty()) {
@@ -172,15 +177,17 @@ private:
     }
 
     std::vector<Candidate> keep_best(std::vector<Candidate> all) {
-        std::stable_sort(all.begin(), all.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
+        std::vector<uint32_t> order(all.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](uint32_t a, uint32_t b) { return all[a].score < all[b].score; });
         std::vector<Candidate> best;
-        for (Candidate& candidate : all) {
+        for (const uint32_t index : order) {
             const bool seen = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
-                return other.coder.state == candidate.coder.state;
+                return other.coder.state == all[index].coder.state;
             });
             if (seen) continue;
-            best.push_back(std::move(candidate));
+            best.push_back(std::move(all[index]));
             if (best.size() == setting_.beam) break;
         }
         return best;
@@ -190,6 +197,7 @@ private:
 
     struct EdgeCode {
         std::vector<CodeItem> items{};
+        bool empty = true;
         double cost = 0;
     };
 
@@ -197,11 +205,12 @@ private:
         Coder coder = end;
         coder.items.clear();
         const double before = coder.cost;
+        const uint32_t emitted = coder.emitted;
         const Edge& edge = block_.terminator.edges[which];
         coder.position = block_facts_.end;
         cross(coder, edge, (*setting_.contracts)[edge.target]);
         if (coder.failed) throw std::logic_error("an edge that cannot be crossed");
-        return {std::move(coder.items), coder.cost - before};
+        return {std::move(coder.items), coder.emitted == emitted, coder.cost - before};
     }
 
     [[nodiscard]] uint32_t label_of(BlockId block) const {
@@ -253,6 +262,8 @@ private:
                double cost) {
         if (found_ && cost >= best_.cost) return;
         found_ = true;
+        best_.cost = cost;
+        if (setting_.only_cost) return;
         std::vector<const Link*> links;
         for (const Link* link = candidate.code; link != nullptr; link = link->before) {
             links.push_back(link);
@@ -265,7 +276,6 @@ private:
         for (CodeItem& item : cold) place(item, block_.terminator.place);
         best_.items.insert(best_.items.end(), tail.begin(), tail.end());
         best_.cold = std::move(cold);
-        best_.cost = cost;
     }
 
     void append_jump(std::vector<CodeItem>& items, double& cost, BlockId target, double weight) {
@@ -319,7 +329,7 @@ private:
             cold.push_back(label_item(labels[outside]));
             cold.insert(cold.end(), edges[outside].items.begin(), edges[outside].items.end());
             cold.push_back(jump_item(op::kJmp, label_of(block_.terminator.edges[outside].target)));
-            if (!edges[outside].items.empty()) cost += leaving * 10 + 3 * setting_.byte_cost;
+            if (!edges[outside].empty) cost += leaving * 10 + 3 * setting_.byte_cost;
             offer(candidate, std::move(items), std::move(cold), cost);
         }
     }
@@ -349,7 +359,7 @@ private:
             EdgeCode code = edge_code(coder, i);
             const BlockId target = block_.terminator.edges[i].target;
             uint32_t label = label_of(target);
-            if (!code.items.empty()) {
+            if (!code.empty) {
                 label = setting_.recipes.label();
                 cold.push_back(label_item(label));
                 cold.insert(cold.end(), code.items.begin(), code.items.end());

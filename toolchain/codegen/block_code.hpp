@@ -15,6 +15,7 @@ struct BlockSetting {
     BlockId next = kNone;  ///< placed behind it
     double byte_cost = 1;  ///< T-states that a byte is worth, at this block's frequency
     unsigned beam = 6;
+    bool only_cost = false;  ///< make no instructions
     RecipeContext recipes{};
     const Contract* entry = nullptr;
     const std::vector<Contract>* contracts = nullptr;  ///< of all blocks

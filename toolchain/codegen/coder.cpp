@@ -15,6 +15,8 @@ void Coder::emit(uint8_t opcode, CodeOperand operand) {
     const isa::Instruction& instruction = isa::instruction(opcode);
     cost += instruction.t_not_taken + byte_cost_ * instruction.bytes;
     if ((instruction.flags & (isa::flag::kZero | isa::flag::kSign)) != 0) state.tested = kNone;
+    ++emitted;
+    if (only_cost) return;
     CodeItem item;
     item.opcode = opcode;
     item.operand = operand;
@@ -28,10 +30,12 @@ void Coder::emit_number(uint8_t opcode, int32_t number) {
 void Coder::emit_jump(uint8_t opcode, uint32_t label, double taken) {
     const isa::Instruction& instruction = isa::instruction(opcode);
     emit(opcode, {CodeOperand::Kind::label, CodeOperand::Part::word, label, 0});
+    jumps = true;
     cost += taken * (instruction.t_taken - instruction.t_not_taken);
 }
 
 void Coder::emit_label(uint32_t label) {
+    if (only_cost) return;
     CodeItem item;
     item.kind = CodeItem::Kind::label;
     item.operand = {CodeOperand::Kind::label, CodeOperand::Part::word, label, 0};
@@ -52,14 +56,14 @@ Register Coder::find(ByteId byte, RegisterSet among) const {
 
 bool Coder::in_slot(ByteId byte) const {
     if (!facts_->computed(byte)) return false;
-    const auto at = block_->local.find(byte);
-    return at != block_->local.end() && state.in_slot.test(at->second);
+    const uint32_t at = block_->local.find(byte);
+    return at != kNone && state.in_slot.test(at);
 }
 
 uint32_t Coder::next_use(ByteId byte) const {
-    const auto at = block_->local.find(byte);
-    if (at == block_->local.end()) return kNone;
-    for (const uint32_t use : block_->uses[at->second]) {
+    const uint32_t at = block_->local.find(byte);
+    if (at == kNone) return kNone;
+    for (const uint32_t use : block_->uses[at]) {
         if (use >= position) return use;
     }
     return kNone;
@@ -67,12 +71,12 @@ uint32_t Coder::next_use(ByteId byte) const {
 
 bool Coder::needed(ByteId byte, bool after) const {
     if (byte == kNone || !facts_->computed(byte)) return false;
-    const auto at = block_->local.find(byte);
-    if (at == block_->local.end()) return false;
-    if (edge_needs != nullptr) return (*edge_needs)[at->second] != 0;
-    const std::vector<uint32_t>& uses = block_->uses[at->second];
-    if (uses.empty()) return false;
-    return after ? uses.back() > position : uses.back() >= position;
+    const uint32_t at = block_->local.find(byte);
+    if (at == kNone) return false;
+    if (edge_needs != nullptr) return (*edge_needs)[at] != 0;
+    const uint32_t last = block_->last_use[at];
+    if (last == kNone) return false;
+    return after ? last > position : last >= position;
 }
 
 bool Coder::only_copy(Register which, bool after, RegisterSet lost) const {
@@ -84,10 +88,8 @@ bool Coder::only_copy(Register which, bool after, RegisterSet lost) const {
 
 bool Coder::complete() const {
     for (uint32_t number = 0; number < block_->relevant.size(); ++number) {
-        const std::vector<uint32_t>& uses = block_->uses[number];
-        if (uses.empty() || uses.back() <= position || block_->made[number] > position + 1) {
-            continue;
-        }
+        const uint32_t last = block_->last_use[number];
+        if (last == kNone || last <= position || block_->made[number] > position + 1) continue;
         if (!state.in_slot.test(number) && find(block_->relevant[number]) == Register::flags) {
             return false;
         }
@@ -135,8 +137,8 @@ void Coder::mark_stored(ByteId byte) {
             state.in_slot.reset(other);
         }
     }
-    const auto at = block_->local.find(byte);
-    if (at != block_->local.end()) state.in_slot.set(at->second);
+    const uint32_t at = block_->local.find(byte);
+    if (at != kNone) state.in_slot.set(at);
 }
 
 void Coder::alu(unsigned operation, ByteId byte) {

@@ -62,7 +62,10 @@ public:
         : facts_(&facts), block_(&block), wishes_(&wishes), byte_cost_(byte_cost) {}
 
     State state{};
-    std::vector<CodeItem> items{};  ///< since the last take()
+    std::vector<CodeItem> items{};  ///< of this operation
+    bool only_cost = false;         ///< then `items` stays empty
+    uint32_t emitted = 0;           ///< instructions, whether they are kept or not
+    bool jumps = false;             ///< emit_jump() was called
     double cost = 0;                ///< T-states, and bytes by their weight
     bool failed = false;            ///< this way leads nowhere
     uint32_t position = 0;          ///< of the operation that is translated
@@ -101,7 +104,7 @@ public:
     /// Is everything that is needed behind this operation in a register or slot?
     [[nodiscard]] bool complete() const;
     [[nodiscard]] Base sum_in(Pair pair) const;
-    [[nodiscard]] uint32_t local(ByteId byte) const { return block_->local.at(byte); }
+    [[nodiscard]] uint32_t local(ByteId byte) const { return block_->local.find(byte); }
 
     void set(Register which, ByteId byte);
     void set(Pair pair, ByteId low, ByteId high) {

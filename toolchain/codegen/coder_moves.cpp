@@ -33,9 +33,8 @@ bool Coder::free_now(Register which) const {
 Register Coder::free_register(ByteId byte, RegisterSet avoid) const {
     Register best = Register::flags;
     int best_score = -1;
-    const auto at = block_->local.find(byte);
-    const RegisterSet wished =
-        at == block_->local.end() ? RegisterSet{0} : wishes_->registers[at->second];
+    const uint32_t at = block_->local.find(byte);
+    const RegisterSet wished = at == kNone ? RegisterSet{0} : wishes_->registers[at];
     for (const Register which : kRegisters) {
         if ((avoid & set_of(which)) != 0 || !free_now(which)) continue;
         int score = 0;
@@ -194,9 +193,9 @@ void Coder::point_to_slot(ByteId byte) {
 
 void Coder::store_wanted(const Bytes& results) {
     const auto wanted = [&](ByteId byte) {
-        const auto at = block_->local.find(byte);
-        return at != block_->local.end() && facts_->computed(byte) && needed(byte, true) &&
-               wishes_->slot[at->second] != 0 && !state.in_slot.test(at->second);
+        const uint32_t at = block_->local.find(byte);
+        return at != kNone && facts_->computed(byte) && needed(byte, true) &&
+               wishes_->slot[at] != 0 && !state.in_slot.test(at);
     };
     for (std::size_t i = 0; i < results.size(); ++i) {
         if (!wanted(results[i])) continue;

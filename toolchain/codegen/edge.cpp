@@ -53,8 +53,8 @@ public:
 
 private:
     void need(ByteId byte) {
-        const auto at = coder_.block().local.find(byte);
-        if (at != coder_.block().local.end()) needs_[at->second] = 1;
+        const uint32_t at = coder_.block().local.find(byte);
+        if (at != kNone) needs_[at] = 1;
     }
 
     void update_needs() {

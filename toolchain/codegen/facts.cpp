@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <utility>
 
 namespace toolchain::codegen {
 
@@ -253,14 +254,13 @@ private:
         const auto count = static_cast<uint32_t>(block.operations.size());
         facts.end = count + 1;
         const auto number = [&](ByteId byte) {
-            const auto [at, added] =
-                facts.local.try_emplace(byte, static_cast<uint32_t>(facts.relevant.size()));
-            if (added) {
+            const uint32_t at = facts.local.add(byte);
+            if (at == facts.relevant.size()) {
                 facts.relevant.push_back(byte);
                 facts.uses.emplace_back();
                 facts.made.push_back(0);
             }
-            return at->second;
+            return at;
         };
         const auto use_at = [&](ByteId byte, uint32_t position) {
             if (!facts_.computed(byte)) return;
@@ -283,6 +283,9 @@ private:
             }
             std::vector<uint32_t>& from = facts_.blocks[edge.target].predecessors;
             if (std::find(from.begin(), from.end(), index) == from.end()) from.push_back(index);
+        }
+        for (const std::vector<uint32_t>& uses : facts.uses) {
+            facts.last_use.push_back(uses.empty() ? kNone : uses.back());
         }
     }
 
@@ -332,6 +335,26 @@ private:
 };
 
 }  // namespace
+
+uint32_t LocalNumbers::add(ByteId byte) {
+    const uint32_t known = find(byte);
+    if (known != kNone) return known;
+    if (2 * (count_ + 1) > table_.size()) {
+        const std::vector<Entry> old = std::exchange(table_, std::vector<Entry>(2 * table_.size()));
+        mask_ = table_.size() - 1;
+        for (const Entry& entry : old) {
+            if (entry.byte != kNone) put(entry);
+        }
+    }
+    put({byte, count_});
+    return count_++;
+}
+
+void LocalNumbers::put(const Entry& entry) {
+    std::size_t at = entry.byte & mask_;
+    while (table_[at].byte != kNone) at = (at + 1) & mask_;
+    table_[at] = entry;
+}
 
 ByteId passed_for(const Function& function, const Edge& edge, ByteId wanted) {
     const Bytes& parameters = function.blocks[edge.target].parameters;

@@ -4,8 +4,8 @@
 // Design note  docs/design/compiler.md, "Register homes".
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -13,18 +13,27 @@
 
 namespace toolchain::codegen {
 
-/// A set of small numbers.
+/// A set of small numbers. Up to 256 of them need no memory of their own: sets are copied a lot.
 class Bits {
 public:
     Bits() = default;
-    explicit Bits(std::size_t size) : words_((size + 63) / 64) {}
-    [[nodiscard]] bool test(std::size_t at) const { return (words_[at / 64] >> at % 64 & 1) != 0; }
-    void set(std::size_t at) { words_[at / 64] |= uint64_t{1} << at % 64; }
-    void reset(std::size_t at) { words_[at / 64] &= ~(uint64_t{1} << at % 64); }
+    explicit Bits(std::size_t size) : more_(size > kInside ? (size - kInside + 63) / 64 : 0) {}
+    [[nodiscard]] bool test(std::size_t at) const { return (word(at) >> at % 64 & 1) != 0; }
+    void set(std::size_t at) { word(at) |= uint64_t{1} << at % 64; }
+    void reset(std::size_t at) { word(at) &= ~(uint64_t{1} << at % 64); }
     bool operator==(const Bits&) const = default;
 
 private:
-    std::vector<uint64_t> words_;
+    static constexpr std::size_t kInside = 256;
+    [[nodiscard]] const uint64_t& word(std::size_t at) const {
+        return at < kInside ? inside_[at / 64] : more_[(at - kInside) / 64];
+    }
+    [[nodiscard]] uint64_t& word(std::size_t at) {
+        return at < kInside ? inside_[at / 64] : more_[(at - kInside) / 64];
+    }
+
+    std::array<uint64_t, kInside / 64> inside_{};
+    std::vector<uint64_t> more_;
 };
 
 /// A word as base plus delta, so that INX and DCX can make one address of another.
@@ -44,13 +53,38 @@ struct Base {
     bool operator==(const Base&) const = default;
 };
 
+/// Numbers from 0 for the bytes that matter in a block: an open hash table.
+class LocalNumbers {
+public:
+    /// The byte's number, a new one if it has none.
+    uint32_t add(ByteId byte);
+    /// kNone if it has none.
+    [[nodiscard]] uint32_t find(ByteId byte) const {
+        for (std::size_t at = byte & mask_;; at = (at + 1) & mask_) {
+            if (table_[at].byte == byte || table_[at].byte == kNone) return table_[at].number;
+        }
+    }
+
+private:
+    struct Entry {
+        ByteId byte = kNone;
+        uint32_t number = kNone;
+    };
+    void put(const Entry& entry);
+
+    std::vector<Entry> table_ = std::vector<Entry>(16);
+    std::size_t mask_ = 15;
+    uint32_t count_ = 0;
+};
+
 /// Uses of bytes in one block. Positions: an operation's index; the number of operations for the
 /// terminator; one more for what successors need.
 struct BlockFacts {
     std::vector<ByteId> live_in{};              ///< parameters that are used included; sorted
     std::vector<ByteId> relevant{};             ///< every byte that matters here, by local number
-    std::map<ByteId, uint32_t> local{};         ///< its number
+    LocalNumbers local{};                       ///< its number
     std::vector<std::vector<uint32_t>> uses{};  ///< by local number, ascending
+    std::vector<uint32_t> last_use{};           ///< by local number; kNone: never
     std::vector<uint32_t> made{};  ///< by local number: 0 at the entry, else operation + 1
     std::vector<double> edge_probability{};
     std::vector<uint32_t> predecessors{};

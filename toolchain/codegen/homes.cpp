@@ -24,15 +24,19 @@ public:
         : facts_(facts), options_(options), blocks_(facts.function.blocks) {
         place_blocks();
         start_contracts();
-        code_.resize(blocks_.size());
+        costs_.resize(blocks_.size());
         for (BlockId block = 0; block < blocks_.size(); ++block) remake(block);
     }
 
     FunctionBlocks run() {
         if (options_.search) search();
-        double sum = 0;
-        for (BlockId block = 0; block < blocks_.size(); ++block) sum += cost_of(block);
-        return {std::move(order_), std::move(code_), sum};
+        FunctionBlocks result;
+        for (BlockId block = 0; block < blocks_.size(); ++block) {
+            result.cost += cost_of(block);
+            result.blocks.push_back(make_block(facts_, setting_of(block)));
+        }
+        result.order = std::move(order_);
+        return result;
     }
 
 private:
@@ -84,9 +88,7 @@ private:
         return std::max(blocks_[block].frequency, kRare);
     }
 
-    [[nodiscard]] double cost_of(BlockId block) const {
-        return code_[block].cost * frequency(block);
-    }
+    [[nodiscard]] double cost_of(BlockId block) const { return costs_[block] * frequency(block); }
 
     void remake(BlockId block) {
         std::vector<Contract> key{contracts_[block]};
@@ -96,9 +98,17 @@ private:
         auto& memory = memory_[block];
         const auto known = memory.find(key);
         if (known != memory.end()) {
-            code_[block] = known->second;
+            costs_[block] = known->second;
             return;
         }
+        BlockSetting setting = setting_of(block);
+        setting.only_cost = true;
+        costs_[block] = make_block(facts_, setting).cost;
+        spent_ += blocks_[block].operations.size() + 2;
+        memory.emplace(std::move(key), costs_[block]);
+    }
+
+    [[nodiscard]] BlockSetting setting_of(BlockId block) const {
         BlockSetting setting;
         setting.block = block;
         setting.next = next_[block];
@@ -108,9 +118,7 @@ private:
         setting.entry = &contracts_[block];
         setting.contracts = &contracts_;
         setting.jump_index = options_.jump_index;
-        code_[block] = make_block(facts_, setting);
-        spent_ += blocks_[block].operations.size() + 2;
-        memory.emplace(std::move(key), code_[block]);
+        return setting;
     }
 
     // -- The search ------------------------------------------------------------------------------
@@ -252,11 +260,11 @@ private:
         }
         double old_cost = 0;
         double new_cost = 0;
-        std::vector<std::pair<BlockId, BlockCode>> old_code;
+        std::vector<std::pair<BlockId, double>> old_costs;
         bool better = true;
         for (const BlockId block : touched) old_cost += cost_of(block);
         for (const BlockId block : touched) {
-            old_code.emplace_back(block, code_[block]);
+            old_costs.emplace_back(block, costs_[block]);
             remake(block);
             new_cost += cost_of(block);
             if (new_cost >= old_cost - kWorthIt) {
@@ -266,7 +274,7 @@ private:
         }
         if (better) return true;
         for (auto& [block, contract] : before) contracts_[block] = std::move(contract);
-        for (auto& [block, code] : old_code) code_[block] = std::move(code);
+        for (const auto& [block, cost] : old_costs) costs_[block] = cost;
         return false;
     }
 
@@ -326,8 +334,8 @@ private:
     std::vector<BlockId> order_;
     std::vector<BlockId> next_;
     std::vector<Contract> contracts_;
-    std::vector<BlockCode> code_;
-    std::map<BlockId, std::map<std::vector<Contract>, BlockCode>> memory_;
+    std::vector<double> costs_;  ///< of one execution of each block
+    std::map<BlockId, std::map<std::vector<Contract>, double>> memory_;
     std::vector<std::map<std::pair<uint32_t, uint32_t>, ByteId>> members_;
     std::vector<Unit> units_;
     std::vector<std::vector<BlockId>> regions_;

@@ -38,11 +38,14 @@ struct Targets {
 
 using Ways = std::vector<Coder>;
 
+inline constexpr std::size_t kUsualItems = 12;
+
 /// Tries a way: `action` works on a copy of `start`.
 template <typename Action>
 void add_way(Ways& ways, const Coder& start, Action action) {
     Coder coder = start;
     coder.items.clear();
+    if (!coder.only_cost) coder.items.reserve(kUsualItems);
     action(coder);
     coder.release();
     if (!coder.failed) ways.push_back(std::move(coder));

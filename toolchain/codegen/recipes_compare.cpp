@@ -22,6 +22,7 @@ void add_decision(std::vector<Decision>& ways, const Coder& start, Condition con
                   Action action) {
     Decision way{start, condition};
     way.coder.items.clear();
+    way.coder.jumps = false;
     action(way.coder);
     way.coder.release();
     if (!way.coder.failed) ways.push_back(std::move(way));
@@ -202,12 +203,7 @@ void add_compare(Ways& ways, const Coder& start, const Operation& operation,
     for (Decision& way :
          decide(start, operation.predicate, operation.left, operation.right, targets)) {
         Coder coder = std::move(way.coder);
-        const bool jumps = [&] {
-            for (const CodeItem& item : coder.items) {
-                if (item.operand.kind == CodeOperand::Kind::label) return true;
-            }
-            return false;
-        }();
+        const bool jumps = coder.jumps;
         coder.vacate(Register::a, true);
         if (coder.failed) continue;
         if (!jumps && (way.condition == Condition::c || way.condition == Condition::nc)) {
