@@ -131,9 +131,8 @@ private:
             }
         }
         if (next.empty()) {
-            throw std::logic_error(
-                fmt::format("block {}, operation {} ({}): no way to translate it", setting_.block,
-                            position, static_cast<int>(operation.opcode)));
+            throw NoWay(fmt::format("block {}, operation {} ({}): no way to translate it",
+                                    setting_.block, position, static_cast<int>(operation.opcode)));
         }
         return keep_best(std::move(next));
     }
@@ -209,7 +208,7 @@ private:
         const Edge& edge = block_.terminator.edges[which];
         coder.position = block_facts_.end;
         cross(coder, edge, (*setting_.contracts)[edge.target]);
-        if (coder.failed) throw std::logic_error("an edge that cannot be crossed");
+        if (coder.failed) throw NoWay("an edge that cannot be crossed");
         return {std::move(coder.items), coder.emitted == emitted, coder.cost - before};
     }
 
@@ -251,7 +250,7 @@ private:
                 offer(beam.front(), {}, {}, beam.front().coder.cost);
                 break;
         }
-        if (!found_) throw std::logic_error(fmt::format("block {}: no end", setting_.block));
+        if (!found_) throw NoWay(fmt::format("block {}: no end", setting_.block));
         for (CodeItem& item : best_.items) {
             if (item.file == UINT32_MAX && item.line == 0) place(item, block_.terminator.place);
         }

@@ -3,6 +3,7 @@
 // Depends on   recipes.hpp, edge.hpp.
 #pragma once
 
+#include <stdexcept>
 #include <vector>
 
 #include "toolchain/codegen/edge.hpp"
@@ -29,7 +30,13 @@ struct BlockCode {
     double cost = 0;               ///< T-states of one execution, and its bytes by their weight
 };
 
-/// @errors std::logic_error if there is no way to translate an operation
+/// No way was found to translate an operation: a wider beam may have one.
+class NoWay : public std::logic_error {
+public:
+    using std::logic_error::logic_error;
+};
+
+/// @errors NoWay
 [[nodiscard]] BlockCode make_block(const FunctionFacts& facts, const BlockSetting& setting);
 
 }  // namespace toolchain::codegen

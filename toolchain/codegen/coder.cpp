@@ -132,13 +132,10 @@ CodeOperand Coder::slot(ByteId byte) const {
 
 // What else was in that place is gone.
 void Coder::mark_stored(ByteId byte) {
-    for (uint32_t other = 0; other < block_->relevant.size(); ++other) {
-        if (state.in_slot.test(other) && facts_->same_place(block_->relevant[other], byte)) {
-            state.in_slot.reset(other);
-        }
-    }
     const uint32_t at = block_->local.find(byte);
-    if (at != kNone) state.in_slot.set(at);
+    if (at == kNone) return;
+    for (const uint32_t other : block_->same_place[at]) state.in_slot.reset(other);
+    state.in_slot.set(at);
 }
 
 void Coder::alu(unsigned operation, ByteId byte) {

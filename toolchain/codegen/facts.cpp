@@ -2,6 +2,7 @@
 #include "toolchain/codegen/facts.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -283,6 +284,14 @@ private:
             }
             std::vector<uint32_t>& from = facts_.blocks[edge.target].predecessors;
             if (std::find(from.begin(), from.end(), index) == from.end()) from.push_back(index);
+        }
+        std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> places;
+        for (uint32_t i = 0; i < facts.relevant.size(); ++i) {
+            const ByteId byte = facts.relevant[i];
+            places[{facts_.variable[byte], facts_.index[byte]}].push_back(i);
+        }
+        for (const ByteId byte : facts.relevant) {
+            facts.same_place.push_back(places[{facts_.variable[byte], facts_.index[byte]}]);
         }
         for (const std::vector<uint32_t>& uses : facts.uses) {
             facts.last_use.push_back(uses.empty() ? kNone : uses.back());

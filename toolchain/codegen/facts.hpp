@@ -84,7 +84,8 @@ struct BlockFacts {
     std::vector<ByteId> relevant{};             ///< every byte that matters here, by local number
     LocalNumbers local{};                       ///< its number
     std::vector<std::vector<uint32_t>> uses{};  ///< by local number, ascending
-    std::vector<uint32_t> last_use{};           ///< by local number; kNone: never
+    std::vector<std::vector<uint32_t>> same_place{};  ///< by local number: others in its place
+    std::vector<uint32_t> last_use{};                 ///< by local number; kNone: never
     std::vector<uint32_t> made{};  ///< by local number: 0 at the entry, else operation + 1
     std::vector<double> edge_probability{};
     std::vector<uint32_t> predecessors{};

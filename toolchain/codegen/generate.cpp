@@ -77,9 +77,11 @@ private:
             const std::vector<CodeItem>& code = blocks.blocks[block].items;
             items.insert(items.end(), code.begin(), code.end());
             if (facts_.function.blocks[block].terminator.kind == Terminator::Kind::unreachable) {
+                const uint32_t again = next_label_++;
+                items.push_back(label(again));
                 items.push_back(make_item(op::kHlt));
                 items.push_back(make_item(
-                    op::kJmp, {CodeOperand::Kind::label, CodeOperand::Part::word, block, 0}));
+                    op::kJmp, {CodeOperand::Kind::label, CodeOperand::Part::word, again, 0}));
             }
         }
         for (const BlockId block : blocks.order) {

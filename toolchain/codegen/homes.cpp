@@ -33,7 +33,7 @@ public:
         FunctionBlocks result;
         for (BlockId block = 0; block < blocks_.size(); ++block) {
             result.cost += cost_of(block);
-            result.blocks.push_back(make_block(facts_, setting_of(block)));
+            result.blocks.push_back(best_effort(setting_of(block)));
         }
         result.order = std::move(order_);
         return result;
@@ -103,9 +103,26 @@ private:
         }
         BlockSetting setting = setting_of(block);
         setting.only_cost = true;
-        costs_[block] = make_block(facts_, setting).cost;
+        costs_[block] = best_effort(setting).cost;
         spent_ += blocks_[block].operations.size() + 2;
         memory.emplace(std::move(key), costs_[block]);
+    }
+
+    // A narrow beam may lose the only states from which an operation can be translated.
+    [[nodiscard]] BlockCode best_effort(BlockSetting setting) const {
+        try {
+            return make_block(facts_, setting);
+        } catch (const NoWay&) {
+            setting.beam *= kWider;
+        }
+        try {
+            return make_block(facts_, setting);
+        } catch (const NoWay&) {
+            if (!setting.only_cost) throw;
+        }
+        BlockCode hopeless;
+        hopeless.cost = kHopeless;
+        return hopeless;
     }
 
     [[nodiscard]] BlockSetting setting_of(BlockId block) const {
@@ -324,6 +341,8 @@ private:
 
     static constexpr double kMostForByte = 30;
     static constexpr unsigned kBeam = 4;
+    static constexpr unsigned kWider = 32;
+    static constexpr double kHopeless = 1e15;
     static constexpr double kWorthIt = 0.01;
     static constexpr uint64_t kMostWork = 200'000;
     static constexpr uint64_t kRounds = 400;
