@@ -43,8 +43,7 @@ define void @main() {
 }
 )");
     program.run();
-    const uint64_t wanted =
-        ((4660ULL * 1000003 + 305419896) ^ 81985529216486895ULL) * 77 - 9;
+    const uint64_t wanted = ((4660ULL * 1000003 + 305419896) ^ 81985529216486895ULL) * 77 - 9;
     EXPECT_EQ(program.variable("result", 8), wanted);
 }
 

@@ -252,7 +252,10 @@ bool Interpreter::call_runtime(Frame& frame, const Operation& operation, const s
                         static_cast<std::ptrdiff_t>(std::min(size, operation.results.size())));
     const Bytes high(operation.results.begin() + static_cast<std::ptrdiff_t>(low.size()),
                      operation.results.end());
-    if (name.starts_with("__mul") || name.starts_with("__umul")) {
+    if (name == "__mul8s" || name == "__smul16w") {
+        set(frame, operation.results,
+            static_cast<uint64_t>(signed_argument(0) * signed_argument(1)));
+    } else if (name.starts_with("__mul") || name.starts_with("__umul")) {
         set(frame, operation.results, Wide{argument(0)} * argument(1));
     } else if (name.starts_with("__udiv")) {
         const uint64_t divisor = argument(1);
