@@ -95,9 +95,13 @@ void CompiledProgram::run(const std::function<host_sim::Interrupt(uint64_t)>& in
 uint64_t CompiledProgram::variable(const std::string& name, unsigned size) const {
     const assembly::Symbol* symbol = program_.find(name);
     if (symbol == nullptr) throw std::runtime_error("no variable " + name);
+    return word_at(symbol->value, size);
+}
+
+uint64_t CompiledProgram::word_at(uint32_t address, unsigned size) const {
     uint64_t value = 0;
     for (unsigned i = size; i-- > 0;) {
-        value = value << 8 | machine_.memory.bytes[static_cast<uint16_t>(symbol->value + i)];
+        value = value << 8 | machine_.memory.bytes[static_cast<uint16_t>(address + i)];
     }
     return value;
 }

@@ -34,6 +34,7 @@ public:
     void run(const std::function<host_sim::Interrupt(uint64_t)>& interrupt);
 
     [[nodiscard]] uint64_t variable(const std::string& name, unsigned size) const;
+    [[nodiscard]] uint64_t word_at(uint32_t address, unsigned size) const;
     [[nodiscard]] uint64_t instructions() const { return instructions_; }
     [[nodiscard]] uint64_t t_states() const { return machine_.cpu.t; }
     [[nodiscard]] uint32_t accepted() const { return accepted_; }
