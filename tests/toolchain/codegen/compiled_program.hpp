@@ -37,6 +37,8 @@ public:
     [[nodiscard]] uint64_t word_at(uint32_t address, unsigned size) const;
     [[nodiscard]] uint64_t instructions() const { return instructions_; }
     [[nodiscard]] uint64_t t_states() const { return machine_.cpu.t; }
+    /// May RST 5.5 to 7.5 come now?
+    [[nodiscard]] bool enabled() const { return machine_.cpu.interrupt_enable; }
     [[nodiscard]] uint32_t accepted() const { return accepted_; }
     /// Lowest stack pointer seen, as bytes below the top.
     [[nodiscard]] uint32_t deepest_stack() const { return deepest_stack_; }

@@ -108,6 +108,17 @@ class SharedWork : public testing::Test {
 protected:
     CompiledProgram program = program_of(kShared);
 
+    /// The first instruction before which RST 7.5 is taken; the start-up, which uses SP for other
+    /// things, is over then.
+    uint64_t first_enabled() {
+        uint64_t first = 0;
+        for (; program.accepted() == 0; ++first) {
+            program.run(
+                [&](uint64_t now) { return now == first ? Interrupt::rst75 : Interrupt::none; });
+        }
+        return first - 1;
+    }
+
     void expect_main() {
         const Results wanted = work(72057594037927935);
         ASSERT_EQ(program.variable("main_mix", 8), wanted.mixed);
@@ -134,10 +145,8 @@ TEST_F(SharedWork, WithoutInterrupts) {
 TEST_F(SharedWork, TrapAtEveryInstruction) {
     program.run();
     const uint64_t last = program.instructions();
-    // The first instructions are the start-up's: it sets the stack pointer.
-    const uint64_t first = 20;
     ASSERT_GT(last, 1000U);
-    for (uint64_t at = first; at < last - 1; ++at) {
+    for (uint64_t at = first_enabled(); at < last - 1; ++at) {
         program.run([&](uint64_t now) { return now == at ? Interrupt::trap : Interrupt::none; });
         SCOPED_TRACE(at);
         expect_main();
@@ -182,6 +191,33 @@ TEST_F(SharedWork, BothAtOnceAndTrapWithinRst75) {
     EXPECT_LE(deepest, program.compiled().stack_bytes);
     // All three at their deepest at once is rare, two of them not.
     EXPECT_GT(deepest, program.compiled().stack_bytes / 2);
+}
+
+// TRAP comes while interrupts are off, too, and must leave them off.
+TEST_F(SharedWork, TrapLeavesInterruptsAsTheyWere) {
+    program.run();
+    const uint64_t last = program.instructions();
+    bool off = false;
+    program.run([&](uint64_t now) {
+        // Behind the DI of main there are RET and HLT.
+        if (now == last - 2) {
+            off = true;
+            return Interrupt::trap;
+        }
+        return off ? Interrupt::rst75 : Interrupt::none;
+    });
+    expect_handler("trap", kTrapSeed, 1);
+    expect_handler("tick", kTickSeed, 0);
+    bool on = false;
+    const uint64_t early = first_enabled() + 100;
+    program.run([&](uint64_t now) {
+        if (now == early) return Interrupt::trap;
+        const bool first_after = !on && program.accepted() == 1 && now > early;
+        if (!first_after) return Interrupt::none;
+        on = program.enabled();
+        return Interrupt::none;
+    });
+    EXPECT_TRUE(on);
 }
 
 TEST_F(SharedWork, CopiesHaveFramesAndCellsOfTheirOwn) {
