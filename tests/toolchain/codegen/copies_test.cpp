@@ -7,8 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <set>
 #include <string>
+#include <string_view>
 
 #include "tests/toolchain/codegen/compiled_program.hpp"
 #include "tests/toolchain/codegen/plain_generator.hpp"
@@ -36,6 +39,7 @@ declare void @__i85_di()
 @main_mix = global i64 0
 @trap_mix = global i64 0
 @tick_mix = global i64 0
+@tick_own = global i64 0
 @trap_quotient = global i32 0
 @tick_quotient = global i32 0
 @traps = global i16 0
@@ -73,6 +77,9 @@ define void @on_trap() "interrupt"="36" {
 }
 define void @on_tick() "interrupt"="60" {
   call void @work(ptr @tick_mix, ptr @tick_quotient, i64 123456789123)
+  %1 = load i64, ptr @tick_mix
+  %2 = mul i64 %1, 999999
+  store i64 %2, ptr @tick_own
   %n = load i16, ptr @ticks
   %m = add i16 %n, 1
   store i16 %m, ptr @ticks
@@ -130,6 +137,8 @@ protected:
         if (times == 0) return;
         ASSERT_EQ(program.variable(name + "_mix", 8), work(seed).mixed);
         ASSERT_EQ(program.variable(name + "_quotient", 4), work(seed).divided);
+        if (name != "tick") return;
+        ASSERT_EQ(program.variable("tick_own", 8), work(seed).mixed * 999999);
     }
 };
 
@@ -305,15 +314,58 @@ TEST(CopiesOfPointers, AreMadeWhereTheInterruptCallsByName) {
     EXPECT_EQ(program.variable("seen", 2), 144U);
 }
 
+// The same of a function that is a copy itself.
+TEST(CopiesOfPointers, AnAddressInACopyIsTheOriginals) {
+    auto program = program_of(R"(
+@hook = global ptr @callback
+@seen = global i16 0
+define i16 @callback(i16 %a) noinline {
+  %1 = mul i16 %a, %a
+  ret i16 %1
+}
+define void @install(i16 %n) noinline {
+  store ptr @callback, ptr @hook
+  %1 = call i16 @callback(i16 %n)
+  store i16 %1, ptr @seen
+  ret void
+}
+define void @on_tick() "interrupt"="60" {
+  call void @install(i16 5)
+  ret void
+}
+define void @main() {
+  call void @install(i16 4)
+  %f = load ptr, ptr @hook
+  %1 = call i16 %f(i16 12)
+  store i16 %1, ptr @seen
+  ret void
+}
+)");
+    program.run();
+    EXPECT_EQ(program.variable("seen", 2), 144U);
+    std::multiset<uint8_t> of_copy;
+    std::multiset<uint8_t> of_original;
+    for (const auto& placed : program.program().sections) {
+        if (placed.section.name != "install@rst75") continue;
+        for (const auto& item : placed.section.items) {
+            const std::string_view name = toolchain::assembly::reference_of(item);
+            if (name == "callback@rst75") of_copy.insert(item.opcode);
+            if (name == "callback") of_original.insert(item.opcode);
+        }
+    }
+    constexpr uint8_t kCall = 0xCD;
+    EXPECT_EQ(of_copy, std::multiset<uint8_t>{kCall});
+    EXPECT_FALSE(of_original.empty());
+    EXPECT_EQ(of_original.count(kCall), 0U);
+}
+
 // The pointer that the handler hands out is called by the main program, so it must be the original.
 TEST(CopiesOfPointers, AnAddressIsTheOriginals) {
     auto program = program_of(
         with_callback("store ptr @callback, ptr @other\n %1 = call i16 @callback(i16 3)"));
     const auto* original = program.program().find("callback");
     ASSERT_NE(original, nullptr);
-    program.run();
-    program.run([](uint64_t now) { return now == 40 ? Interrupt::rst75 : Interrupt::none; });
-    // RST 7.5 is off in this program, so look at the code: nothing has the copy's address but CALL.
+    // Nothing has the copy's address but a CALL.
     unsigned calls = 0;
     for (const auto& placed : program.program().sections) {
         for (const auto& item : placed.section.items) {
