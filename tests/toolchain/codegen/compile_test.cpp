@@ -10,7 +10,6 @@
 #include <string>
 
 #include "tests/toolchain/codegen/compiled_program.hpp"
-#include "tests/toolchain/codegen/plain_generator.hpp"
 #include "tests/toolchain/ir/ir_program.hpp"
 
 namespace {
@@ -19,18 +18,25 @@ using codegen_test::CompiledProgram;
 using testing::HasSubstr;
 using namespace toolchain::codegen;
 
-CompiledProgram program_of(const std::string& text, const CompileOptions& options = {}) {
-    return {codegen_test::plain_code, ir_test::to_mir(text), options};
-}
-
-std::string refusal_of(const std::string& text, const CompileOptions& options = {}) {
-    try {
-        (void)program_of(text, options);
-    } catch (const Refused& refused) {
-        return refused.what();
+/// All programs by the real generator and by the plain one.
+class Compile : public testing::TestWithParam<codegen_test::NamedGenerator> {
+protected:
+    static CompiledProgram program_of(const std::string& text, const CompileOptions& options = {}) {
+        return {GetParam().generator, ir_test::to_mir(text), options};
     }
-    return "accepted";
-}
+
+    static std::string refusal_of(const std::string& text, const CompileOptions& options = {}) {
+        try {
+            (void)program_of(text, options);
+        } catch (const Refused& refused) {
+            return refused.what();
+        }
+        return "accepted";
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Generators, Compile, testing::ValuesIn(codegen_test::generators()),
+                         codegen_test::generator_name);
 
 const FunctionReport& report_of(const Compiled& compiled, const std::string& name) {
     const auto found = std::ranges::find(compiled.functions, name, &FunctionReport::name);
@@ -38,7 +44,7 @@ const FunctionReport& report_of(const Compiled& compiled, const std::string& nam
     return *found;
 }
 
-TEST(Compile, ArgumentsInRegistersAndMemory) {
+TEST_P(Compile, ArgumentsInRegistersAndMemory) {
     auto program = program_of(R"(
 @result = global i64 0
 define i64 @mix(i16 %a, i32 %b, i8 %c, i64 %d, i16 %e) noinline {
@@ -98,7 +104,7 @@ define void @main() {
 }
 )";
 
-TEST(Compile, CallsThroughPointers) {
+TEST_P(Compile, CallsThroughPointers) {
     auto program = program_of(kPointers);
     program.run();
     EXPECT_EQ(program.variable("results", 8), 1234567890123ULL - 5 + 200);
@@ -109,7 +115,7 @@ TEST(Compile, CallsThroughPointers) {
     EXPECT_EQ(static_cast<int64_t>(program.word_at(results->value + 16U, 8)), 7 - 8 - 9);
 }
 
-TEST(Compile, ConstantsAreInRomAndPointersToThemRight) {
+TEST_P(Compile, ConstantsAreInRomAndPointersToThemRight) {
     auto program = program_of(kPointers);
     const auto* table = program.program().find("table");
     const auto* sum = program.program().find("sum");
@@ -161,7 +167,7 @@ uint32_t deep(uint16_t above, uint64_t n) {
     return deep(mid, n - 1) * 3 + mid;
 }
 
-TEST(Compile, RecursionKeepsVariablesOfEveryCall) {
+TEST_P(Compile, RecursionKeepsVariablesOfEveryCall) {
     CompileOptions options;
     options.allow_recursion = true;
     auto program = program_of(kRecursion, options);
@@ -172,7 +178,7 @@ TEST(Compile, RecursionKeepsVariablesOfEveryCall) {
     EXPECT_FALSE(report_of(program.compiled(), "main").recursive);
 }
 
-TEST(Compile, MutualRecursionThroughAPointer) {
+TEST_P(Compile, MutualRecursionThroughAPointer) {
     CompileOptions options;
     options.allow_recursion = true;
     auto program = program_of(R"(
@@ -215,7 +221,7 @@ define void @main() {
     EXPECT_EQ(program.variable("result", 2), 5 + 4 * even3);
 }
 
-TEST(Compile, RecursionIsRefusedWithItsCycle) {
+TEST_P(Compile, RecursionIsRefusedWithItsCycle) {
     EXPECT_EQ(refusal_of(kRecursion),
               "recursion: deep -> deep: static frames hold one call at a time: make it a loop, or "
               "use --allow-recursion");
@@ -249,7 +255,7 @@ define void @main() {
 }
 )";
 
-TEST(Compile, FramesOfFunctionsThatAreNeverActiveTogetherOverlap) {
+TEST_P(Compile, FramesOfFunctionsThatAreNeverActiveTogetherOverlap) {
     auto program = program_of(kTree);
     program.run();
     const uint16_t middle = ((49 + 1) ^ 49) + 7;
@@ -267,7 +273,7 @@ TEST(Compile, FramesOfFunctionsThatAreNeverActiveTogetherOverlap) {
               leaf1.frame_offset + std::max(leaf1.frame_bytes, leaf2.frame_bytes));
 }
 
-TEST(Compile, TheStackIsAsDeepAsStated) {
+TEST_P(Compile, TheStackIsAsDeepAsStated) {
     auto program = program_of(kTree);
     program.run();
     // main, middle, leaf1, __mul16: four return addresses, and what __mul16 pushes.
@@ -277,7 +283,7 @@ TEST(Compile, TheStackIsAsDeepAsStated) {
     EXPECT_EQ(report_of(program.compiled(), "leaf2").stack_bytes, 0U);
 }
 
-TEST(Compile, WhatNobodyReachesIsNotThere) {
+TEST_P(Compile, WhatNobodyReachesIsNotThere) {
     auto program = program_of("define void @unused() {\n ret void\n}\n" + std::string(kTree));
     EXPECT_EQ(program.program().find("unused"), nullptr);
     CompileOptions options;
@@ -289,7 +295,7 @@ TEST(Compile, WhatNobodyReachesIsNotThere) {
 // -- Names and data
 // --------------------------------------------------------------------------------
 
-TEST(Compile, NamesThatTheAssemblerWouldTakeForLocalAreSafe) {
+TEST_P(Compile, NamesThatTheAssemblerWouldTakeForLocalAreSafe) {
     auto program = program_of(R"(
 @.str = private constant [2 x i8] c"a\00"
 @.str.1 = private constant [2 x i8] c"b\00"
@@ -312,7 +318,7 @@ define void @main() {
     EXPECT_EQ(program.variable("result", 1), static_cast<uint8_t>('a' + 'b' + 67 + 3));
 }
 
-TEST(Compile, AStaticLocalIsNotTheFrame) {
+TEST_P(Compile, AStaticLocalIsNotTheFrame) {
     // clang names a static local `x` of f `f.x`.
     auto program = program_of(R"(
 @f.frame = global i16 1
@@ -346,7 +352,7 @@ define void @main() {
     EXPECT_EQ(program.variable("result", 2), 1110U);
 }
 
-TEST(Compile, MainMustBeThere) {
+TEST_P(Compile, MainMustBeThere) {
     EXPECT_EQ(refusal_of("define void @start() {\n ret void\n}\n"),
               "no function 'main' is defined");
 }

@@ -9,6 +9,7 @@
 
 #include "host_sim/cpu/flat_bus.hpp"
 #include "host_sim/cpu/reference.hpp"
+#include "tests/toolchain/codegen/plain_generator.hpp"
 #include "toolchain/asm/link.hpp"
 #include "toolchain/asm/parse.hpp"
 
@@ -40,6 +41,16 @@ const std::vector<assembly::Module>& runtime_modules() {
         return modules;
     }();
     return kModules;
+}
+
+std::vector<NamedGenerator> generators() {
+    const auto slots_only = [](const codegen::Module& module, const codegen::Function& function,
+                               const codegen::GenerateOptions& options) {
+        codegen::GenerateOptions without = options;
+        without.search = false;
+        return codegen::generate(module, function, without);
+    };
+    return {{"Real", codegen::generate}, {"WithoutSearch", slots_only}, {"Plain", plain_code}};
 }
 
 CompiledProgram::CompiledProgram(codegen::Generator generator, codegen::Module module,

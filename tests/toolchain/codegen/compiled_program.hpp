@@ -3,8 +3,11 @@
 // Depends on   toolchain/codegen/compile.hpp, toolchain/asm, host_sim/cpu.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +20,20 @@ namespace codegen_test {
 
 /// The modules of toolchain/runtime, parsed once.
 [[nodiscard]] const std::vector<toolchain::assembly::Module>& runtime_modules();
+
+/// generate() with its search, without it, and the plain one.
+struct NamedGenerator {
+    const char* name;
+    toolchain::codegen::Generator generator;
+};
+[[nodiscard]] std::vector<NamedGenerator> generators();
+[[nodiscard]] inline std::string generator_name(
+    const testing::TestParamInfo<NamedGenerator>& test) {
+    return test.param.name;
+}
+inline void PrintTo(const NamedGenerator& generator, std::ostream* out) {
+    *out << generator.name;
+}
 
 class CompiledProgram {
 public:

@@ -14,7 +14,6 @@
 #include <string_view>
 
 #include "tests/toolchain/codegen/compiled_program.hpp"
-#include "tests/toolchain/codegen/plain_generator.hpp"
 #include "tests/toolchain/ir/ir_program.hpp"
 #include "toolchain/asm/program.hpp"
 
@@ -25,9 +24,21 @@ using host_sim::Interrupt;
 using testing::HasSubstr;
 using namespace toolchain::codegen;
 
-CompiledProgram program_of(const std::string& text) {
-    return {codegen_test::plain_code, ir_test::to_mir(text)};
-}
+/// All programs by the real generator and by the plain one.
+class WithGenerator : public testing::TestWithParam<codegen_test::NamedGenerator> {
+protected:
+    static CompiledProgram program_of(const std::string& text) {
+        return {GetParam().generator, ir_test::to_mir(text)};
+    }
+    static std::string refusal_of(const std::string& text) {
+        try {
+            (void)program_of(text);
+        } catch (const Refused& refused) {
+            return refused.what();
+        }
+        return "accepted";
+    }
+};
 
 // `mix` has a frame, memory arguments and a memory result and uses cells of the runtime; `scale`
 // has none of its own but calls `mix`; `twice` needs no memory in a clever generator.
@@ -111,7 +122,7 @@ Results work(uint64_t seed) {
     return {mixed, low / (static_cast<uint32_t>(seed) | 65537) * low};
 }
 
-class SharedWork : public testing::Test {
+class SharedWork : public WithGenerator {
 protected:
     CompiledProgram program = program_of(kShared);
 
@@ -142,16 +153,19 @@ protected:
     }
 };
 
+INSTANTIATE_TEST_SUITE_P(Generators, SharedWork, testing::ValuesIn(codegen_test::generators()),
+                         codegen_test::generator_name);
+
 constexpr uint64_t kTrapSeed = 999999999937;
 constexpr uint64_t kTickSeed = 123456789123;
 
-TEST_F(SharedWork, WithoutInterrupts) {
+TEST_P(SharedWork, WithoutInterrupts) {
     program.run();
     expect_main();
     EXPECT_LE(program.deepest_stack(), program.compiled().stack_bytes);
 }
 
-TEST_F(SharedWork, TrapAtEveryInstruction) {
+TEST_P(SharedWork, TrapAtEveryInstruction) {
     program.run();
     const uint64_t last = program.instructions();
     ASSERT_GT(last, 1000U);
@@ -164,7 +178,7 @@ TEST_F(SharedWork, TrapAtEveryInstruction) {
     }
 }
 
-TEST_F(SharedWork, Rst75AtEveryInstruction) {
+TEST_P(SharedWork, Rst75AtEveryInstruction) {
     program.run();
     const uint64_t last = program.instructions();
     uint64_t taken = 0;
@@ -179,7 +193,7 @@ TEST_F(SharedWork, Rst75AtEveryInstruction) {
     EXPECT_GT(taken, last * 9 / 10);
 }
 
-TEST_F(SharedWork, BothAtOnceAndTrapWithinRst75) {
+TEST_P(SharedWork, BothAtOnceAndTrapWithinRst75) {
     program.run();
     const uint64_t last = program.instructions();
     uint32_t deepest = 0;
@@ -203,7 +217,7 @@ TEST_F(SharedWork, BothAtOnceAndTrapWithinRst75) {
 }
 
 // TRAP comes while interrupts are off, too, and must leave them off.
-TEST_F(SharedWork, TrapLeavesInterruptsAsTheyWere) {
+TEST_P(SharedWork, TrapLeavesInterruptsAsTheyWere) {
     program.run();
     const uint64_t last = program.instructions();
     bool off = false;
@@ -229,7 +243,7 @@ TEST_F(SharedWork, TrapLeavesInterruptsAsTheyWere) {
     EXPECT_TRUE(on);
 }
 
-TEST_F(SharedWork, CopiesHaveFramesAndCellsOfTheirOwn) {
+TEST_P(SharedWork, CopiesHaveFramesAndCellsOfTheirOwn) {
     for (const std::string suffix : {"", "@trap", "@rst75"}) {
         for (const char* name : {"mix", "scale", "work", "__wide.a", "__mul64", "__udiv32.cells"}) {
             EXPECT_NE(program.program().find(name + suffix), nullptr) << name << suffix;
@@ -244,7 +258,7 @@ TEST_F(SharedWork, CopiesHaveFramesAndCellsOfTheirOwn) {
 }
 
 // Frames of different contexts never share a byte.
-TEST_F(SharedWork, FramesOfContextsAreApart) {
+TEST_P(SharedWork, FramesOfContextsAreApart) {
     struct Range {
         uint32_t first = UINT32_MAX;
         uint32_t end = 0;
@@ -266,14 +280,11 @@ TEST_F(SharedWork, FramesOfContextsAreApart) {
 // -- Pointers
 // --------------------------------------------------------------------------------------
 
-std::string refusal_of(const std::string& text) {
-    try {
-        (void)program_of(text);
-    } catch (const Refused& refused) {
-        return refused.what();
-    }
-    return "accepted";
-}
+class CopiesOfPointers : public WithGenerator {};
+
+INSTANTIATE_TEST_SUITE_P(Generators, CopiesOfPointers,
+                         testing::ValuesIn(codegen_test::generators()),
+                         codegen_test::generator_name);
 
 /// A call-back that the main program calls through a pointer; %s is what the handler does.
 std::string with_callback(const std::string& handler) {
@@ -282,7 +293,10 @@ std::string with_callback(const std::string& handler) {
 @seen = global i16 0
 @other = global ptr null
 define i16 @callback(i16 %a) {{
-  %1 = mul i16 %a, %a
+  %kept = alloca i16
+  store volatile i16 %a, ptr %kept
+  %b = load volatile i16, ptr %kept
+  %1 = mul i16 %a, %b
   store i16 %1, ptr @seen
   ret i16 %1
 }}
@@ -300,14 +314,14 @@ define void @main() {{
                        handler);
 }
 
-TEST(CopiesOfPointers, AreRefusedWhereTwoContextsCallThem) {
+TEST_P(CopiesOfPointers, AreRefusedWhereTwoContextsCallThem) {
     const std::string text =
         refusal_of(with_callback("%f = load ptr, ptr @hook\n %1 = call i16 %f(i16 3)"));
     EXPECT_THAT(text, HasSubstr("'callback' may be called through a pointer by the interrupt "
                                 "function 'on_tick', and by the main program too"));
 }
 
-TEST(CopiesOfPointers, AreMadeWhereTheInterruptCallsByName) {
+TEST_P(CopiesOfPointers, AreMadeWhereTheInterruptCallsByName) {
     auto program = program_of(with_callback("%1 = call i16 @callback(i16 3)"));
     EXPECT_NE(program.program().find("callback@rst75"), nullptr);
     program.run();
@@ -315,12 +329,15 @@ TEST(CopiesOfPointers, AreMadeWhereTheInterruptCallsByName) {
 }
 
 // The same of a function that is a copy itself.
-TEST(CopiesOfPointers, AnAddressInACopyIsTheOriginals) {
+TEST_P(CopiesOfPointers, AnAddressInACopyIsTheOriginals) {
     auto program = program_of(R"(
 @hook = global ptr @callback
 @seen = global i16 0
 define i16 @callback(i16 %a) noinline {
-  %1 = mul i16 %a, %a
+  %kept = alloca i16
+  store volatile i16 %a, ptr %kept
+  %b = load volatile i16, ptr %kept
+  %1 = mul i16 %a, %b
   ret i16 %1
 }
 define void @install(i16 %n) noinline {
@@ -360,7 +377,7 @@ define void @main() {
 }
 
 // The pointer that the handler hands out is called by the main program, so it must be the original.
-TEST(CopiesOfPointers, AnAddressIsTheOriginals) {
+TEST_P(CopiesOfPointers, AnAddressIsTheOriginals) {
     auto program = program_of(
         with_callback("store ptr @callback, ptr @other\n %1 = call i16 @callback(i16 3)"));
     const auto* original = program.program().find("callback");
