@@ -47,6 +47,7 @@ Interpreter::Interpreter(const Module& module) : module_(module) {
 
 void Interpreter::place(SymbolId symbol, uint32_t size) {
     addresses_[symbol] = next_;
+    if (size > 0x10000U - next_) throw std::runtime_error("variables do not fit into memory");
     next_ = static_cast<uint16_t>(next_ + size);
 }
 
@@ -122,6 +123,7 @@ std::vector<uint8_t> Interpreter::run_blocks(Frame& frame, const std::vector<uin
     BlockId current = 0;
     while (true) {
         const Block& block = function.blocks[current];
+        count_step();  // a loop may be empty
         for (const Operation& operation : block.operations) execute(frame, operation);
         const Terminator& end = block.terminator;
         if (end.kind == Terminator::Kind::give_back) {
@@ -146,8 +148,12 @@ std::vector<uint8_t> Interpreter::run_blocks(Frame& frame, const std::vector<uin
     }
 }
 
-void Interpreter::execute(Frame& frame, const Operation& operation) {
+void Interpreter::count_step() {
     if (++steps > step_limit) throw std::runtime_error("too many steps");
+}
+
+void Interpreter::execute(Frame& frame, const Operation& operation) {
+    count_step();
     const Wide left = number(frame, operation.left);
     const Wide right = number(frame, operation.right);
     switch (operation.opcode) {
