@@ -270,7 +270,9 @@ private:
         std::ranges::stable_sort(sizes, std::greater{}, [](const auto& one) { return one.first; });
         std::string text = fmt::format("{}: {} bytes needed, {} there ({})", name, needed,
                                        range.size(), range_text(range.first, range.size()));
-        if (needed <= range.size()) {
+        if (needed > range.size()) {
+            text += fmt::format(", {} too many", needed - range.size());
+        } else {
             text += fmt::format(", but no gap for {} of them; the largest has {}", missing,
                                 free.largest_gap());
         }

@@ -385,6 +385,15 @@ private:
     Convention convention_;
 };
 
+bool has_table(const Module& module) {
+    for (const Function& function : module.functions) {
+        for (const Block& block : function.blocks) {
+            if (block.terminator.kind == Terminator::Kind::table) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 void lower_calls(Module& module) {
@@ -399,6 +408,7 @@ void lower_calls(Module& module) {
         if (function.recursive) StackVariables(function).run();
     }
     for (Function& function : module.functions) Places(module, functions, function).run();
+    if (has_table(module)) (void)module.intern("__jumpindex");  // generate() refers to it
 }
 
 }  // namespace toolchain::codegen

@@ -254,6 +254,16 @@ codegen::Compiled generate(const Request& request, codegen::Module module,
     return codegen::compile(std::move(module), runtime_modules(), options);
 }
 
+void check_ranges(const Request& request) {
+    const assembly::AddressRange& rom = request.rom;
+    const assembly::AddressRange& ram = request.ram;
+    if (rom.last < ram.first || ram.last < rom.first) return;
+    throw Failed(
+        fmt::format("ROM {:04X}H-{:04X}H and RAM {:04X}H-{:04X}H overlap: correct --rom "
+                    "or --ram",
+                    rom.first, rom.last, ram.first, ram.last));
+}
+
 assembly::LinkOptions link_options(const Request& request, const codegen::Compiled& compiled,
                                    const std::vector<std::string>& roots) {
     assembly::LinkOptions options;
@@ -289,6 +299,7 @@ assembly::Program link_program(const Request& request, codegen::Compiled& compil
 
 Result compile_program(const Request& request) {
     return reported([&] {
+        check_ranges(request);
         Result result;
         Compilation compilation(request, result.times);
         compilation.to_llvm();

@@ -76,7 +76,16 @@ void link_into(llvm::Module& into, ModulePointer from) {
     context.setDiagnosticHandler(std::make_unique<Collector>(problem));
     const bool failed = llvm::Linker::linkModules(into, std::move(from));
     context.setDiagnosticHandler(std::move(before));
-    if (failed) throw Failed(fmt::format("{}: cannot be linked: {}", name, problem));
+    if (!failed) return;
+    // "Linking globals named 'main': symbol multiply defined!"
+    const std::size_t from_quote = problem.find('\'');
+    const std::size_t to_quote = problem.find('\'', from_quote + 1);
+    if (to_quote != std::string::npos && problem.find("multiply defined") != std::string::npos) {
+        const std::string symbol = problem.substr(from_quote + 1, to_quote - from_quote - 1);
+        throw Failed(fmt::format("{}: '{}' is defined in another source too: keep one definition",
+                                 name, llvm::demangle(symbol)));
+    }
+    throw Failed(fmt::format("{}: cannot be linked: {}", name, problem));
 }
 
 std::set<std::string> missing_names(std::span<const ModulePointer> modules) {

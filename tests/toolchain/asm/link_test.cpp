@@ -132,13 +132,14 @@ TEST(Link, FullRangesAreExplained) {
     LinkOptions options = rooted({"f"});
     options.rom = {0x0000, 0x001F};
     EXPECT_EQ(refused("SECTION f,code\nf: LXI H,g\nSECTION g,constant\ng: DS 30\n", options),
-              "ROM: 33 bytes needed, 32 there (0000H-001FH); largest: g 30, f 3");
+              "ROM: 33 bytes needed, 32 there (0000H-001FH), 1 too many; largest: g 30, f 3");
     options.ram = {0x8000, 0x800F};
     options.stack_size = 6;
     EXPECT_EQ(refused("SECTION f,code\nf: LXI H,g\nLXI H,s\nSECTION g,zero\ng: DS 9\n"
                       "SECTION s,frame,OFFSET 1\ns: DS 1\n",
                       options),
-              "RAM: 17 bytes needed, 16 there (8000H-800FH); largest: g 9, stack 6, frames 2");
+              "RAM: 17 bytes needed, 16 there (8000H-800FH), 1 too many; largest: g 9, stack 6, "
+              "frames 2");
     options.rom = {0x0000, 0x003F};
     EXPECT_EQ(
         refused("SECTION f,code\nf: LXI H,g\nSECTION g,constant\ng: DS 30\n"

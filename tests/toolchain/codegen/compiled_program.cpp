@@ -9,6 +9,7 @@
 
 #include "host_sim/cpu/flat_bus.hpp"
 #include "host_sim/cpu/reference.hpp"
+#include "tests/toolchain/codegen/plain_generator.hpp"
 #include "toolchain/asm/link.hpp"
 #include "toolchain/asm/parse.hpp"
 
@@ -40,6 +41,16 @@ const std::vector<assembly::Module>& runtime_modules() {
         return modules;
     }();
     return kModules;
+}
+
+std::vector<NamedGenerator> generators() {
+    const auto slots_only = [](const codegen::Module& module, const codegen::Function& function,
+                               const codegen::GenerateOptions& options) {
+        codegen::GenerateOptions without = options;
+        without.search = false;
+        return codegen::generate(module, function, without);
+    };
+    return {{"Real", codegen::generate}, {"WithoutSearch", slots_only}, {"Plain", plain_code}};
 }
 
 CompiledProgram::CompiledProgram(codegen::Generator generator, codegen::Module module,
@@ -95,9 +106,13 @@ void CompiledProgram::run(const std::function<host_sim::Interrupt(uint64_t)>& in
 uint64_t CompiledProgram::variable(const std::string& name, unsigned size) const {
     const assembly::Symbol* symbol = program_.find(name);
     if (symbol == nullptr) throw std::runtime_error("no variable " + name);
+    return word_at(symbol->value, size);
+}
+
+uint64_t CompiledProgram::word_at(uint32_t address, unsigned size) const {
     uint64_t value = 0;
     for (unsigned i = size; i-- > 0;) {
-        value = value << 8 | machine_.memory.bytes[static_cast<uint16_t>(symbol->value + i)];
+        value = value << 8 | machine_.memory.bytes[static_cast<uint16_t>(address + i)];
     }
     return value;
 }

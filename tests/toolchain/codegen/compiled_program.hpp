@@ -3,8 +3,11 @@
 // Depends on   toolchain/codegen/compile.hpp, toolchain/asm, host_sim/cpu.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +20,20 @@ namespace codegen_test {
 
 /// The modules of toolchain/runtime, parsed once.
 [[nodiscard]] const std::vector<toolchain::assembly::Module>& runtime_modules();
+
+/// generate() with its search, without it, and the plain one.
+struct NamedGenerator {
+    const char* name;
+    toolchain::codegen::Generator generator;
+};
+[[nodiscard]] std::vector<NamedGenerator> generators();
+[[nodiscard]] inline std::string generator_name(
+    const testing::TestParamInfo<NamedGenerator>& test) {
+    return test.param.name;
+}
+inline void PrintTo(const NamedGenerator& generator, std::ostream* out) {
+    *out << generator.name;
+}
 
 class CompiledProgram {
 public:
@@ -34,8 +51,11 @@ public:
     void run(const std::function<host_sim::Interrupt(uint64_t)>& interrupt);
 
     [[nodiscard]] uint64_t variable(const std::string& name, unsigned size) const;
+    [[nodiscard]] uint64_t word_at(uint32_t address, unsigned size) const;
     [[nodiscard]] uint64_t instructions() const { return instructions_; }
     [[nodiscard]] uint64_t t_states() const { return machine_.cpu.t; }
+    /// May RST 5.5 to 7.5 come now?
+    [[nodiscard]] bool enabled() const { return machine_.cpu.interrupt_enable; }
     [[nodiscard]] uint32_t accepted() const { return accepted_; }
     /// Lowest stack pointer seen, as bytes below the top.
     [[nodiscard]] uint32_t deepest_stack() const { return deepest_stack_; }

@@ -47,6 +47,7 @@ Interpreter::Interpreter(const Module& module) : module_(module) {
 
 void Interpreter::place(SymbolId symbol, uint32_t size) {
     addresses_[symbol] = next_;
+    if (size > 0x10000U - next_) throw std::runtime_error("variables do not fit into memory");
     next_ = static_cast<uint16_t>(next_ + size);
 }
 
@@ -122,6 +123,7 @@ std::vector<uint8_t> Interpreter::run_blocks(Frame& frame, const std::vector<uin
     BlockId current = 0;
     while (true) {
         const Block& block = function.blocks[current];
+        count_step();  // a loop may be empty
         for (const Operation& operation : block.operations) execute(frame, operation);
         const Terminator& end = block.terminator;
         if (end.kind == Terminator::Kind::give_back) {
@@ -146,8 +148,12 @@ std::vector<uint8_t> Interpreter::run_blocks(Frame& frame, const std::vector<uin
     }
 }
 
-void Interpreter::execute(Frame& frame, const Operation& operation) {
+void Interpreter::count_step() {
     if (++steps > step_limit) throw std::runtime_error("too many steps");
+}
+
+void Interpreter::execute(Frame& frame, const Operation& operation) {
+    count_step();
     const Wide left = number(frame, operation.left);
     const Wide right = number(frame, operation.right);
     switch (operation.opcode) {
@@ -252,7 +258,10 @@ bool Interpreter::call_runtime(Frame& frame, const Operation& operation, const s
                         static_cast<std::ptrdiff_t>(std::min(size, operation.results.size())));
     const Bytes high(operation.results.begin() + static_cast<std::ptrdiff_t>(low.size()),
                      operation.results.end());
-    if (name.starts_with("__mul") || name.starts_with("__umul")) {
+    if (name == "__mul8s" || name == "__smul16w") {
+        set(frame, operation.results,
+            static_cast<uint64_t>(signed_argument(0) * signed_argument(1)));
+    } else if (name.starts_with("__mul") || name.starts_with("__umul")) {
         set(frame, operation.results, Wide{argument(0)} * argument(1));
     } else if (name.starts_with("__udiv")) {
         const uint64_t divisor = argument(1);

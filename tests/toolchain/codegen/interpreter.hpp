@@ -49,6 +49,7 @@ private:
     static void set(Frame& frame, const Bytes& bytes, Wide value);
     std::vector<uint8_t> run(const Function& function, const std::vector<uint8_t>& arguments);
     std::vector<uint8_t> run_blocks(Frame& frame, const std::vector<uint8_t>& arguments);
+    void count_step();
     void execute(Frame& frame, const Operation& operation);
     bool holds(const Frame& frame, toolchain::codegen::Predicate predicate, const Bytes& left,
                const Bytes& right) const;

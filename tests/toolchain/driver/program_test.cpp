@@ -1,5 +1,6 @@
 // Programs end to end: one for each feature of the language, compiled at every level, run on the
-// simulated processor. Expected values: the same text compiled for the host, or worked out beside it.
+// simulated processor. Expected values: the same text compiled for the host, or worked out beside
+// it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +23,9 @@ struct Feature {
     bool allow_recursion = false;
 };
 
-void PrintTo(const Feature& feature, std::ostream* stream) { *stream << feature.name; }
+void PrintTo(const Feature& feature, std::ostream* stream) {
+    *stream << feature.name;
+}
 
 class Features : public testing::TestWithParam<std::tuple<Feature, int>> {};
 
@@ -31,6 +34,7 @@ TEST_P(Features, GiveTheirResult) {
     Request request = request_for(feature.text, feature.file, static_cast<Optimisation>(level));
     request.keep = {"result"};
     request.allow_recursion = feature.allow_recursion;
+    if (feature.allow_recursion) request.stack_bytes = 8000;
     const Result compiled = compile_program(request);
     Machine machine(compiled);
     machine.run();
@@ -54,7 +58,8 @@ const std::vector<Feature> kFeatures = {
             Point b = moved(a, 10);
             scale(b, 3);
             result = a.x * 1000 + a.tag * 100 + b.x + b.y + b.tag;
-        })", 5 * 1000 + 3 * 100 + 45 + 6 + 4},
+        })",
+     5 * 1000 + 3 * 100 + 45 + 6 + 4},
     {"BigStructs", "f.c", R"(
         struct Big { char c[37]; int n; };
         volatile int seed = 7;
@@ -68,7 +73,8 @@ const std::vector<Feature> kFeatures = {
             struct Big a = {{1}, 100};
             struct Big b = fill(a, seed);
             result = a.c[0] + a.n + b.n + (unsigned char)b.c[36];
-        })", 1 + 100 + 107 + (36 * 7 & 255)},
+        })",
+     1 + 100 + 107 + (36 * 7 & 255)},
     {"Arrays", "f.c", R"(
         static const unsigned char table[3][4] = {{1,2,3,4},{5,6,7,8},{9,10,11,12}};
         int grid[4][3];
@@ -78,7 +84,8 @@ const std::vector<Feature> kFeatures = {
             for (unsigned char i = 0; i < limit; i++)
                 for (unsigned char j = 0; j < 3; j++) grid[i][j] = table[j][i] * (i + 1);
             for (unsigned char i = 0; i < limit; i++) result = result * 2 + grid[i][i % 3];
-        })", ((1 * 2 + 6 * 2) * 2 + 11 * 3) * 2 + 4 * 4},
+        })",
+     ((1 * 2 + 6 * 2) * 2 + 11 * 3) * 2 + 4 * 4},
     {"BitFields", "f.c", R"(
         struct Bits { unsigned a : 3; int b : 5; unsigned c : 11; unsigned long d : 20; } bits;
         volatile int seed = -7;
@@ -87,7 +94,8 @@ const std::vector<Feature> kFeatures = {
             bits.a = 13; bits.b = seed; bits.c = 2047 + 5; bits.d = 0xABCDE;
             bits.b -= 3; bits.c++;
             result = bits.a * 1000 + bits.b * 100 + bits.c + (bits.d >> 12);
-        })", static_cast<uint16_t>(5 * 1000 - 10 * 100 + 5 + 0xAB)},
+        })",
+     static_cast<uint16_t>(5 * 1000 - 10 * 100 + 5 + 0xAB)},
     {"Switches", "f.c", R"(
         __attribute__((noinline)) int dense(unsigned char n) {
             switch (n) {
@@ -107,13 +115,15 @@ const std::vector<Feature> kFeatures = {
             static const int values[] = {-300, 4, 1000, 1001, 20000, 999, -301};
             for (unsigned char i = 0; i < turns; i++) result = result * 3 + dense(i);
             for (unsigned char i = 0; i < 7; i++) result = result * 3 + sparse(values[i]);
-        })", [] {
-            uint32_t result = 0;
-            for (const unsigned value : {11, 7, 5, 23, 2, 31, 1, 100, 9, 100, 1, 2, 3, 4, 5, 6, 6}) {
-                result = (result * 3 + value) & 0xFFFF;
-            }
-            return result;
-        }()},
+        })",
+     [] {
+         uint32_t result = 0;
+         for (const unsigned value :
+              {11U, 7U, 5U, 23U, 2U, 31U, 1U, 100U, 9U, 100U, 1U, 2U, 3U, 4U, 5U, 6U, 6U}) {
+             result = (result * 3 + value) & 0xFFFF;
+         }
+         return result;
+     }()},
     {"FunctionPointers", "f.c", R"(
         static int add(int a, int b) { return a + b; }
         static int sub(int a, int b) { return a - b; }
@@ -123,7 +133,8 @@ const std::vector<Feature> kFeatures = {
         int result;
         int main(void) {
             for (unsigned char i = 0; i < turns; i++) result = result * 10 + operations[i](9, 4);
-        })", (13 * 10 + 5) * 10 + 36},
+        })",
+     (13 * 10 + 5) * 10 + 36},
     {"VirtualCalls", "f.cpp", R"(
         struct Shape { virtual int area() const = 0; virtual int edges() const { return 0; }
                        virtual ~Shape() {} };
@@ -140,13 +151,15 @@ const std::vector<Feature> kFeatures = {
         int main() {
             for (unsigned char i = 0; i < turns; i++)
                 result = result * 100 + shapes[i]->area() + shapes[i]->edges();
-        })", 46 * 100 + 75},
+        })",
+     46 * 100 + 75},
     {"StaticLocals", "f.cpp", R"(
         volatile int seed = 4;
         __attribute__((noinline)) int next() { static int n = seed * 2; static char calls;
                                                return n += ++calls; }
         int result;
-        int main() { next(); next(); result = next(); })", 8 + 1 + 2 + 3},
+        int main() { next(); next(); result = next(); })",
+     8 + 1 + 2 + 3},
     {"ConstantTablesAndData", "f.c", R"(
         const char *const words[] = {"zero", "one", "three"};
         int counts[5] = {1, 1000, -5};
@@ -160,7 +173,8 @@ const std::vector<Feature> kFeatures = {
             for (int i = 0; i < 5; i++) result += counts[i];
             for (int i = 0; i < 100; i++) result += cleared[i];
             result += *entry.where + entry.name[0];
-        })", 't' + 'h' + 'r' + 'e' + 'e' + 996 + 1000 + 'x'},
+        })",
+     't' + 'h' + 'r' + 'e' + 'e' + 996 + 1000 + 'x'},
     {"Constructors", "f.cpp", R"(
         extern int order;
         struct Part { int n; explicit Part(int k) : n(order = order * 10 + k) {} };
@@ -169,7 +183,8 @@ const std::vector<Feature> kFeatures = {
         Part two __attribute__((init_priority(200))) (2);
         Part three(3);
         int result;
-        int main() { result = order + one.n + two.n; })", 213 + 21 + 2},
+        int main() { result = order + one.n + two.n; })",
+     213 + 21 + 2},
     {"Memory", "f.c", R"(
         #include <string.h>
         char a[40], b[40];
@@ -183,19 +198,20 @@ const std::vector<Feature> kFeatures = {
             memset(a + 10, 7, n - 25);
             for (int i = 0; i < 40; i++) result = result * 5 + a[i] * 3 + b[i];
             result += memcmp(a, b, 5);
-        })", [] {
-            std::array<int, 40> a{}, b{};
-            for (int i = 0; i < 40; i++) a[i] = i;
-            for (int i = 0; i < 30; i++) b[i] = a[i];
-            for (int i = 29; i >= 0; i--) b[i + 3] = b[i];
-            for (int i = 0; i < 30; i++) a[i] = a[i + 5];
-            for (int i = 10; i < 15; i++) a[i] = 7;
-            uint32_t result = 0;
-            for (int i = 0; i < 40; i++) {
-                result = result * 5 + static_cast<uint32_t>(a[i] * 3 + b[i]);
-            }
-            return (result + 1) & 0xFFFF;  // a[0] = 5 is above b[0] = 0
-        }()},
+        })",
+     [] {
+         int a[40] = {}, b[40] = {};
+         for (int i = 0; i < 40; i++) a[i] = i;
+         for (int i = 0; i < 30; i++) b[i] = a[i];
+         for (int i = 29; i >= 0; i--) b[i + 3] = b[i];
+         for (int i = 0; i < 30; i++) a[i] = a[i + 5];
+         for (int i = 10; i < 15; i++) a[i] = 7;
+         uint32_t result = 0;
+         for (int i = 0; i < 40; i++) {
+             result = result * 5 + static_cast<uint32_t>(a[i] * 3 + b[i]);
+         }
+         return (result + 1) & 0xFFFF;  // a[0] = 5 is above b[0] = 0
+     }()},
     {"Recursion", "f.c", R"(
         volatile int seed = 12;
         int fib(int n) { return n < 2 ? n : fib(n - 1) + fib(n - 2); }
@@ -219,7 +235,8 @@ const std::vector<Feature> kFeatures = {
          int sum = 0;
          Walk::run(4, &sum);
          return static_cast<uint32_t>(144 + 1000 + sum);
-     }(), true},
+     }(),
+     true},
     {"WideIntegers", "f.c", R"(
         volatile long long big = 0x123456789ABCDEFLL;
         volatile unsigned long word = 0xDEADBEEF;
@@ -231,17 +248,19 @@ const std::vector<Feature> kFeatures = {
             unsigned long shifted = word >> (big & 15) ^ word << 3;
             result = (int)(product >> 20) + (int)(quotient >> 7) + (int)shifted
                    + (int)(word % 1000) + (int)(big % small) + (small >> 2);
-        })", [] {
-            const int64_t big = 0x123456789ABCDEFLL;
-            const uint32_t word = 0xDEADBEEF;
-            const int small = -100;
-            const uint64_t product = static_cast<uint64_t>(big) * word;
-            const int64_t quotient = big / small;
-            const uint32_t shifted = word >> (big & 15) ^ word << 3;
-            return static_cast<uint32_t>(
-                (product >> 20) + static_cast<uint64_t>(quotient >> 7) + shifted + word % 1000 +
-                static_cast<uint64_t>(big % small) + static_cast<uint64_t>(small >> 2)) & 0xFFFF;
-        }()},
+        })",
+     [] {
+         const int64_t big = 0x123456789ABCDEFLL;
+         const uint32_t word = 0xDEADBEEF;
+         const int small = -100;
+         const uint64_t product = static_cast<uint64_t>(big) * word;
+         const int64_t quotient = big / small;
+         const uint32_t shifted = word >> (big & 15) ^ word << 3;
+         return static_cast<uint32_t>((product >> 20) + static_cast<uint64_t>(quotient >> 7) +
+                                      shifted + word % 1000 + static_cast<uint64_t>(big % small) +
+                                      static_cast<uint64_t>(small >> 2)) &
+                0xFFFF;
+     }()},
     {"Templates", "f.cpp", R"(
         template <class T, int N> struct Ring { T items[N]; unsigned char at = 0;
             constexpr void push(T item) { items[at] = item; at = (at + 1) % N; }
@@ -253,7 +272,8 @@ const std::vector<Feature> kFeatures = {
             for (int i = 0; i < 5; i++) ring.push(seed * i);
             auto twice = [](auto v) { return v + v; };
             result = twice(ring.sum()) + ring.at;
-        })", 2 * (12 + 16 + 8) + 2},
+        })",
+     2 * (12 + 16 + 8) + 2},
 };
 
 std::string level_name(int level) {

@@ -11,8 +11,8 @@
 
 namespace driver_test {
 
-/// A machine with a program in it; memory that the program leaves out holds 5AH, so that what nobody
-/// initialised does not happen to be 0.
+/// A machine with a program in it; memory that the program leaves out holds 5AH, so that what
+/// nobody initialised does not happen to be 0.
 class Machine {
 public:
     explicit Machine(const toolchain::driver::Result& result,

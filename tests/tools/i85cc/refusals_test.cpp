@@ -64,6 +64,7 @@ TEST_P(Refusals, AreOneMessageAndNoFiles) {
 }
 
 const std::string kMain = "int main(void) { return 0; }\n";
+const std::string kUseF = "int main(void) { return f(1) > 1; }\n";
 
 INSTANTIATE_TEST_SUITE_P(
     FrontEnd, Refusals,
@@ -153,6 +154,129 @@ INSTANTIATE_TEST_SUITE_P(
                 {"--no-constructors"}}),
     [](const auto& test) { return test.param.name; });
 
+// At -O0 the optimiser removes nothing before it is seen.
+INSTANTIATE_TEST_SUITE_P(
+    Language, Refusals,
+    testing::Values(
+        Refusal{"Double",
+                "a.c",
+                "double f(double x) {\n  return x * 2;\n}\n" + kUseF,
+                {"i85cc: a.c:", "in f: floating point: the 8085 has none; use a Q format"},
+                {"-O0"}},
+        Refusal{"FloatVariable",
+                "a.c",
+                "float f = 1;\nint main(void) {\n  return f > 0;\n}\n",
+                {"a.c:3: in main: floating point"},
+                {"-O0"}},
+        Refusal{"VariableArguments",
+                "a.c",
+                "#include <stdarg.h>\nint f(int n, ...) {\n  va_list a;\n  va_start(a, n);\n"
+                "  return va_arg(a, int);\n}\nint main(void) { return f(1, 2); }\n",
+                {"i85cc: a.c:2: in f: a variable argument list",
+                 "a.c:7: in main: a call with a "
+                 "variable number of arguments"}},
+        Refusal{"VariableSize",
+                "a.c",
+                "volatile int n;\nint main(void) {\n  volatile char a[n];\n  a[0] = 1;\n"
+                "  return a[0];\n}\n",
+                {"i85cc: a.c:3: in main: a variable whose size is known only at run time"}},
+        Refusal{"Alloca",
+                "a.c",
+                "volatile int n;\nint main(void) {\n  volatile char* a = __builtin_alloca(n);\n"
+                "  a[0] = 1;\n  return a[0];\n}\n",
+                {"i85cc: a.c:3: in main: a variable whose size is known only at run time"}},
+        Refusal{"InlineAssembly",
+                "a.c",
+                "int main(void) {\n  __asm__(\"nop\");\n}\n",
+                {"i85cc: a.c:2: in main: inline assembly: use the functions of i85.h"}},
+        Refusal{"AssemblyOutside",
+                "a.c",
+                "__asm__(\"nop\");\n" + kMain,
+                {"i85cc: a.c: assembly outside of functions is not supported"}},
+        Refusal{"ComputedGoto",
+                "a.c",
+                "volatile int n;\nint main(void) {\n  void* p = n ? &&a : &&b;\n  goto *p;\na:\n  "
+                "return 1;\n"
+                "b:\n  return 2;\n}\n",
+                {"i85cc: a.c:", "in main: a computed goto: use a switch"},
+                {"-O0"}},
+        Refusal{"Vector",
+                "a.c",
+                "typedef int V __attribute__((vector_size(8)));\nvolatile V v;\n"
+                "int main(void) {\n  v = v + v;\n  return v[0];\n}\n",
+                {"a.c:4: in main: a vector"}},
+        Refusal{"AtomicUpdate",
+                "a.c",
+                "char c;\nint main(void) {\n  return __sync_fetch_and_add(&c, 1);\n}\n",
+                {"i85cc: a.c:3: in main: an atomic read-modify-write: disable interrupts around "
+                 "it"}},
+        Refusal{"PortFromAVariable",
+                "a.c",
+                "#include <i85.h>\nvolatile unsigned char p;\nint main(void) {\n"
+                "  __i85_out(p, 1);\n}\n",
+                {"i85cc: a.c:4: in main: a port number must be known at compile time"}},
+        Refusal{"LoopBoundOutside",
+                "a.c",
+                "#include <i85.h>\nint main(void) {\n  I85_LOOP_BOUND(3);\n}\n",
+                {"i85cc: a.c:3: in main: __i85_loop_bound is not in a loop"}},
+        Refusal{"FrameAddress",
+                "a.c",
+                "int main(void) {\n  return (int)__builtin_frame_address(0);\n}\n",
+                {"i85cc: a.c:", "no built-in function of another processor"}}),
+    [](const auto& test) { return test.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    CallsAndMemory, Refusals,
+    testing::Values(
+        Refusal{"Recursion",
+                "a.c",
+                "volatile int k;\nint f(int n) {\n  return n ? n * f(n - 1) + f(n - 2) : 1;\n}\n"
+                "int main(void) { return f(k); }\n",
+                {"recursion: f -> f (a.c:3): static frames hold one call at a time: make it a "
+                 "loop, or use --allow-recursion"}},
+        Refusal{"MutualRecursion",
+                "a.c",
+                "int odd(int n);\nint even(int n) { return n ? odd(n - 1) : 1; }\n"
+                "int odd(int n) {\n  return n ? even(n - 1) : 0;\n}\n"
+                "int main(void) { return even(7); }\n",
+                {"recursion: even -> odd (a.c:2) -> even (a.c:4): "},
+                {"-O0"}},
+        Refusal{"RecursionThroughAPointer",
+                "a.c",
+                "int (*volatile p)(int);\nint f(int n) {\n  return n ? p(n - 1) : 3;\n}\n"
+                "int main(void) {\n  p = f;\n  return f(4);\n}\n",
+                {"recursion: f -> f (a.c:3, through a pointer): "}},
+        Refusal{"RomIsFull",
+                "a.c",
+                "const char x[40000] = {1};\nvolatile int k;\nint main(void) { return x[k]; }\n",
+                {"i85cc: ROM: ", " there (0000H-7FFFH), 72", " too many; largest: x 40000, "}},
+        Refusal{"RamIsFull",
+                "a.c",
+                "volatile char x[40000];\nint main(void) { return x[5]; }\n",
+                {"i85cc: RAM: ", " there (8000H-FEFFH), 7", " too many; largest: x 40000, "}},
+        Refusal{"NoRam",
+                "a.c",
+                "volatile char x[9];\nint main(void) { return x[5]; }\n",
+                {"i85cc: RAM: ", "1 there (9000H-9000H), ", " too many; largest: x 9, "},
+                {"--ram", "9000h-9000h"}},
+        Refusal{"SmallStack",
+                "a.c",
+                "volatile int k;\n__attribute__((noinline)) void f(void) { k++; }\n"
+                "int main(void) {\n  f();\n}\n",
+                {"i85cc: the stack has 1 bytes, but calls and interrupts take up to ",
+                 ": raise --stack, or leave it out"},
+                {"--stack", "1"}},
+        Refusal{"RangesOverlap",
+                "a.c",
+                kMain,
+                {"i85cc: ROM 0000H-7FFFH and RAM 7FFFH-8FFFH overlap: correct --rom or --ram"},
+                {"--ram", "7fffh-8fffh"}},
+        Refusal{"TooLargeAnObject",
+                "a.c",
+                "char x[70000];\n" + kMain,
+                {"a.c:1:8: error: array is too large"}}),
+    [](const auto& test) { return test.param.name; });
+
 // -- The command line and files ------------------------------------------------------------------
 
 class Program : public testing::Test {
@@ -171,6 +295,46 @@ TEST_F(Program, RefusesUnknownOptions) {
     const Outcome outcome = run({"--fast", "-o", "out.hex", "a.c"});
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(outcome.messages, "i85cc: --fast: unknown option: see i85cc --help\n");
+}
+
+TEST_F(Program, RefusesTwoDefinitionsOfOneName) {
+    const Outcome outcome = run({"-o", "out.hex", "a.c", "a.c"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.messages,
+              "i85cc: a.c: 'main' is defined in another source too: keep one definition\n");
+}
+
+TEST_F(Program, WritesFiveFilesOrNone) {
+    EXPECT_EQ(run({"-o", "out.hex", "a.c"}).messages, "");
+    EXPECT_EQ(names_in(path()), (std::set<std::string>{"a.c", "out.bin", "out.hex", "out.lst",
+                                                       "out.map", "out.sym"}));
+    fs::create_directory(path() / "other.lst");
+    const Outcome outcome = run({"-o", "other.hex", "a.c"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.messages,
+              "i85cc: other.lst: cannot be written: it is a folder: choose "
+              "another name\n");
+    EXPECT_FALSE(fs::exists(path() / "other.hex"));
+}
+
+TEST_F(Program, WritesTheSameBytesEachTime) {
+    std::ofstream(path() / "b.cpp")
+        << "#include <string.h>\n#include <i85.h>\n"
+           "static int f(int a) { return a * 3; }\nint v = f(__i85_in(1));\n"
+           "char t[9];\nint main() { memset(t, v, 9); return t[3]; }\n";
+    std::set<std::string> contents;
+    for (const char* name : {"one", "two"}) {
+        fs::create_directory(path() / name);
+        EXPECT_EQ(run({"-o", name + std::string("/out.hex"), "b.cpp"}).messages, "");
+        std::string all;
+        for (const char* extension : {"hex", "bin", "map", "lst", "sym"}) {
+            std::ifstream file(path() / name / (std::string("out.") + extension), std::ios::binary);
+            all += std::string{std::istreambuf_iterator<char>(file), {}};
+        }
+        EXPECT_THAT(all, testing::Not(HasSubstr("/i85cc-")));  // no name of a temporary file
+        contents.insert(all);
+    }
+    EXPECT_EQ(contents.size(), 1U);
 }
 
 TEST_F(Program, RefusesSourcesThatCannotBeRead) {

@@ -1,0 +1,93 @@
+// compare.cpp - see compare.hpp.
+#include "tests/toolchain/csmith/compare.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tests/toolchain/csmith/process.hpp"
+
+namespace csmith_test {
+
+namespace {
+
+constexpr std::size_t kLongestText = 600;
+
+Verdict judge(const Observation& ours, const Observation& oracle) {
+    switch (ours.kind) {
+        case Observation::Kind::checksum:
+            return ours.checksum == oracle.checksum ? Verdict::agreed : Verdict::difference;
+        case Observation::Kind::no_end:
+            return Verdict::no_end;
+        case Observation::Kind::refused:
+            return Verdict::refused;
+        default:
+            return Verdict::failed;
+    }
+}
+
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    if (text.size() > kLongestText) text.resize(kLongestText);
+    return text;
+}
+
+/// With these a program stops where C leaves its behaviour open: the sanitizer's trap is a loop.
+constexpr std::array<const char*, 2> kStopWhenUndefined = {
+    "-fsanitize=signed-integer-overflow,shift,integer-divide-by-zero,bounds,null,bool,unreachable",
+    "-fsanitize-trap=all"};
+
+/// Whether a difference is ours: avr-gcc says the same at other levels, and C says what happens.
+bool is_sure(const Program& program, const Observation& oracle) {
+    if (observe_avr(program, "0") != oracle || observe_avr(program, "s") != oracle) return false;
+    Program checked = program;
+    checked.options.insert(checked.options.end(), kStopWhenUndefined.begin(),
+                           kStopWhenUndefined.end());
+    return observe_subject(checked, "0").mir.kind != Observation::Kind::no_end;
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+    constexpr std::array<std::string_view, kVerdicts> names = {
+        "agreed", "skipped", "doubtful", "too large", "no end", "refused", "failed", "difference"};
+    return names.at(static_cast<std::size_t>(verdict));
+}
+
+Finding compare(const Program& program, const CompareOptions& options) {
+    const Observation oracle = observe_avr(program);
+    if (oracle.kind != Observation::Kind::checksum)
+        return {Verdict::skipped, one_line("avr " + to_text(oracle))};
+    Finding worst;
+    std::vector<std::string> texts;
+    for (const std::string& level : options.levels) {
+        const Subject subject = observe_subject(program, level, options.meddle);
+        const Verdict verdict = judge(subject.mir, oracle);
+        if (verdict == Verdict::agreed) continue;
+        texts.push_back(fmt::format("-O{} in MIR: {}", level, to_text(subject.mir)));
+        worst.verdict = std::max(worst.verdict, verdict);
+    }
+    if (worst.verdict == Verdict::difference && !is_sure(program, oracle))
+        worst.verdict = Verdict::doubtful;
+    if (worst.verdict != Verdict::agreed) {
+        worst.text = one_line(fmt::format("avr {}, {}", to_text(oracle), fmt::join(texts, "; ")));
+    }
+    return worst;
+}
+
+Finding compare_seed(uint64_t seed, const CompareOptions& options) {
+    const WorkFolder folder;
+    const auto program = generate(seed, folder.path());
+    if (!program) return {Verdict::skipped, "csmith finds no program in time"};
+    Finding result = compare(*program, options);
+    if (is_fault(result.verdict) && !options.keep.empty()) {
+        std::filesystem::create_directories(options.keep);
+        std::filesystem::copy(program->source, options.keep / program->source.filename(),
+                              std::filesystem::copy_options::overwrite_existing);
+    }
+    return result;
+}
+
+}  // namespace csmith_test

@@ -1,0 +1,32 @@
+// Programs of fixed seeds, every level against avr-gcc on simavr. More:
+// docs/guides/random-testing.md.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/toolchain/csmith/campaign.hpp"
+
+namespace csmith_test {
+namespace {
+
+constexpr uint64_t kGroup = 10;
+
+class Programs : public testing::TestWithParam<uint64_t> {};
+
+TEST_P(Programs, ComputeWhatTheOracleSays) {
+    const Campaign campaign{GetParam(), GetParam() + kGroup - 1, 1};
+    const Summary summary =
+        run_campaign(campaign, [](uint64_t seed) { return compare_seed(seed, {}); });
+    fmt::print("seeds {} to {}: {}\n", campaign.first, campaign.last, counts_text(summary));
+    for (const auto& [seed, finding] : summary.findings) {
+        EXPECT_FALSE(is_fault(finding.verdict))
+            << "seed " << seed << ": " << name_of(finding.verdict) << ": " << finding.text;
+    }
+    // Were most of them skipped, the test would say little.
+    EXPECT_GT(summary.count(Verdict::agreed), kGroup / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Programs, testing::Range<uint64_t>(1, 81, kGroup),
+                         [](const auto& test) { return fmt::format("From{}", test.param); });
+
+}  // namespace
+}  // namespace csmith_test
