@@ -3,6 +3,7 @@
 
 #include "tests/toolchain/ir/ir_program.hpp"
 #include "toolchain/ir/passes.hpp"
+#include "toolchain/ir/sinking.hpp"
 
 namespace {
 
@@ -80,6 +81,40 @@ define i16 @f(i16 %a, ptr %p) {
                         expand_selects);
     EXPECT_LT(passed.text.find("%l = load"), passed.text.find("store")) << passed.text;
     EXPECT_LT(passed.text.find("load volatile"), passed.text.find("br i1")) << passed.text;
+}
+
+TEST(Sinking, WhatMayMoveDown) {
+    llvm::LLVMContext context;
+    const auto module = ir_test::parse(R"(
+declare void @g()
+define void @f(ptr %p, i16 %a) {
+  %plain = add i16 %a, 1
+  %volatile = load volatile i16, ptr %p
+  %free = load i16, ptr %p
+  %held = load i16, ptr %p
+  %first = xor i16 %a, 1
+  call void @g()
+  %late = load i16, ptr %p
+  ret void
+})",
+                                       context);
+    const llvm::BasicBlock& block = module->getFunction("f")->getEntryBlock();
+    const auto named = [&](const std::string& name) -> const llvm::Instruction& {
+        for (const llvm::Instruction& instruction : block) {
+            if (instruction.getName() == name) return instruction;
+        }
+        throw std::runtime_error(name);
+    };
+    const auto may_move = [&](const char* which, const llvm::Instruction& before) {
+        return toolchain::ir::may_move_down(named(which), before);
+    };
+    const llvm::Instruction& end = *block.getTerminator();
+    EXPECT_TRUE(may_move("plain", end));
+    EXPECT_TRUE(may_move("first", end));
+    EXPECT_TRUE(may_move("late", end));
+    EXPECT_TRUE(may_move("free", named("first")));
+    EXPECT_FALSE(may_move("held", end));  // the call may write
+    EXPECT_FALSE(may_move("volatile", named("first")));
 }
 
 }  // namespace
