@@ -123,9 +123,17 @@ Value* expand_funnel(Builder& builder, const llvm::IntrinsicInst& call) {
     const auto number = [&](uint64_t value) {
         return llvm::ConstantInt::get(high->getType(), value);
     };
+    const bool to_left = call.getIntrinsicID() == llvm::Intrinsic::fshl;
+    if (const auto* known = llvm::dyn_cast<llvm::ConstantInt>(call.getArgOperand(2))) {
+        const uint64_t shift = known->getValue().urem(bits);
+        if (shift == 0) return to_left ? high : low;
+        const uint64_t left = to_left ? shift : bits - shift;
+        return builder.CreateOr(builder.CreateShl(high, left),
+                                builder.CreateLShr(low, bits - left));
+    }
     Value* count = builder.CreateURem(call.getArgOperand(2), number(bits));
     // The other part is shifted in two steps, so that a count of 0 shifts it out whole.
-    if (call.getIntrinsicID() == llvm::Intrinsic::fshl) {
+    if (to_left) {
         Value* part = builder.CreateLShr(builder.CreateLShr(low, number(1)),
                                          builder.CreateSub(number(bits - 1), count));
         return builder.CreateOr(builder.CreateShl(high, count), part);

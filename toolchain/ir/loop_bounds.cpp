@@ -11,13 +11,12 @@
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
 #include <llvm/IR/Module.h>
-#include <llvm/IR/PassManager.h>
-#include <llvm/Passes/PassBuilder.h>
 #include <llvm/Transforms/Utils/LoopUtils.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "toolchain/ir/analyses.hpp"
 #include "toolchain/ir/refuse.hpp"
 
 namespace toolchain::ir {
@@ -85,21 +84,6 @@ uint32_t noted_bound(const llvm::Loop& loop) {
     const bool once_more = loop.isLoopExiting(loop.getHeader()) && !tests_at_bottom;
     return bound + (once_more ? 1 : 0);
 }
-
-/// LLVM's analyses of one function.
-struct Analyses {
-    explicit Analyses(llvm::Function& function) : function_(function) {
-        llvm::PassBuilder().registerFunctionAnalyses(manager_);
-    }
-    template <typename Analysis>
-    typename Analysis::Result& get() {
-        return manager_.getResult<Analysis>(function_);
-    }
-
-private:
-    llvm::Function& function_;
-    llvm::FunctionAnalysisManager manager_;
-};
 
 /// Executions of the header for each entry into the loop, as LLVM's frequencies have it.
 double assumed_iterations(const llvm::Loop& loop, const llvm::BlockFrequencyInfo& frequencies,

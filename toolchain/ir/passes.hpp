@@ -13,6 +13,15 @@ namespace toolchain::ir {
 /// Arguments passed by value in memory: the caller makes the copy, in a variable of its own.
 void copy_by_value_arguments(llvm::Function& function);
 
+/// Addresses and products that grow evenly in a loop are stepped instead of computed.
+void step_pointers(llvm::Function& function);
+
+/// Counters that nothing else uses run down to 0, in 8 bits where that is enough.
+void count_down(llvm::Function& function);
+
+/// Integers whose upper bytes are always 0 are marked by `zext(trunc x)`.
+void narrow_values(llvm::Function& function);
+
 /// Intrinsics become instructions, calls of the runtime, or nothing. Traps halt for ever.
 void expand_intrinsics(llvm::Function& function);
 
@@ -23,7 +32,13 @@ void expand_wide_products(llvm::Function& function);
 /// condition, cases 0, 1, 2 ... and a default that is never reached.
 void lower_switches(llvm::Function& function);
 
-/// Each select becomes a branch.
+/// Operations on a choice where one value is neutral become a choice of results.
+void choose_results(llvm::Function& function);
+
+/// A branch on `a and b` or `a or b` becomes two.
+void split_conditions(llvm::Function& function);
+
+/// Each select becomes a branch, with what only one value needs on its way.
 void expand_selects(llvm::Function& function);
 
 }  // namespace toolchain::ir

@@ -43,9 +43,14 @@ void prepare(llvm::Module& module) {
         llvm::LowerConstantIntrinsicsPass().run(function, functions);
         functions.invalidate(function, llvm::PreservedAnalyses::none());
         run("copy_by_value_arguments", copy_by_value_arguments);
+        run("step_pointers", step_pointers);
+        run("count_down", count_down);
+        run("narrow_values", narrow_values);
         run("expand_intrinsics", expand_intrinsics);
         run("expand_wide_products", expand_wide_products);
         run("lower_switches", lower_switches);
+        run("choose_results", choose_results);
+        run("split_conditions", split_conditions);
         run("expand_selects", expand_selects);
     }
 }

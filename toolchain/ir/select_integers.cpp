@@ -212,6 +212,16 @@ Bytes Selector::select_cast(const llvm::CastInst& cast) {
                              cast.getOpcodeName()));
 }
 
+// Top bytes that are 0 on both sides decide nothing; without them the rest is unsigned.
+bool Selector::drop_equal_tops(Bytes& left, Bytes& right, bool is_signed) const {
+    const std::size_t zeros =
+        std::min(builder_.leading_zero_bytes(left), builder_.leading_zero_bytes(right));
+    const std::size_t dropped = std::min(zeros, left.size() - 1);
+    left.resize(left.size() - dropped);
+    right.resize(right.size() - dropped);
+    return !is_signed || zeros > 0;
+}
+
 Selector::Comparison Selector::comparison(const llvm::ICmpInst& compare) {
     using Wanted = llvm::CmpInst::Predicate;
     const bool is_signed = compare.isSigned();
@@ -219,8 +229,11 @@ Selector::Comparison Selector::comparison(const llvm::ICmpInst& compare) {
         const llvm::Value* which = compare.getOperand(index);
         return is_signed ? signed_value(which) : value(which);
     };
-    const Bytes left = operand(0);
-    const Bytes right = operand(1);
+    Bytes left = operand(0);
+    Bytes right = operand(1);
+    const bool is_unsigned = drop_equal_tops(left, right, is_signed);
+    const Predicate less = is_unsigned ? Predicate::below : Predicate::less;
+    const Predicate not_less = inverse(less);
     switch (compare.getPredicate()) {
         case Wanted::ICMP_EQ:
             return {Predicate::equal, left, right};
@@ -235,13 +248,13 @@ Selector::Comparison Selector::comparison(const llvm::ICmpInst& compare) {
         case Wanted::ICMP_ULE:
             return {Predicate::not_below, right, left};
         case Wanted::ICMP_SLT:
-            return {Predicate::less, left, right};
+            return {less, left, right};
         case Wanted::ICMP_SGE:
-            return {Predicate::not_less, left, right};
+            return {not_less, left, right};
         case Wanted::ICMP_SGT:
-            return {Predicate::less, right, left};
+            return {less, right, left};
         case Wanted::ICMP_SLE:
-            return {Predicate::not_less, right, left};
+            return {not_less, right, left};
         default:
             break;
     }

@@ -56,6 +56,7 @@ private:
         Bytes left;
         Bytes right;
     };
+    bool drop_equal_tops(Bytes& left, Bytes& right, bool is_signed) const;
     [[nodiscard]] Comparison comparison(const llvm::ICmpInst& compare);
 
     [[nodiscard]] Bytes value(const llvm::Value* value);

@@ -325,10 +325,10 @@ uint64_t Interpreter::call(const std::string& name, const std::vector<uint64_t>&
 }
 
 uint64_t Interpreter::variable(const std::string& name, unsigned size) const {
-    const uint16_t address = addresses_.at(module_.symbol_ids.at(name));
+    const uint16_t from = address(name);
     uint64_t value = 0;
     for (unsigned i = size; i-- > 0;)
-        value = value << 8 | memory[static_cast<uint16_t>(address + i)];
+        value = value << 8 | memory[static_cast<uint16_t>(from + i)];
     return value;
 }
 

@@ -25,6 +25,10 @@ public:
     uint64_t call(const std::string& name, const std::vector<uint64_t>& arguments = {});
 
     [[nodiscard]] uint64_t variable(const std::string& name, unsigned size) const;
+    /// Where a variable or frame object is. @errors std::out_of_range
+    [[nodiscard]] uint16_t address(const std::string& name) const {
+        return addresses_.at(module_.symbol_ids.at(name));
+    }
     std::array<uint8_t, 0x10000> memory{};
     uint64_t steps = 0;
     uint64_t step_limit = 200'000'000;

@@ -6,7 +6,9 @@
 #include <llvm/AsmParser/Parser.h>
 #include <llvm/IR/LLVMContext.h>
 #include <llvm/IR/Module.h>
+#include <llvm/IR/Verifier.h>
 #include <llvm/Support/SourceMgr.h>
+#include <llvm/Support/raw_ostream.h>
 
 #include <memory>
 #include <stdexcept>
@@ -62,6 +64,36 @@ inline toolchain::codegen::Module to_mir(const std::string& text) {
     llvm::LLVMContext context;
     return to_mir(*parse(text, context));
 }
+
+/// IR behind one pass: verified, as text, and as the whole pipeline has it in the end.
+class Passed {
+public:
+    Passed(const std::string& source, void (*pass)(llvm::Function&)) {
+        module_ = parse(source, context_);
+        for (llvm::Function& function : *module_) {
+            if (!function.isDeclaration()) pass(function);
+        }
+        llvm::raw_string_ostream stream(text);
+        if (llvm::verifyModule(*module_, &stream)) throw std::runtime_error(text);
+        module_->print(stream, nullptr);
+        mir = to_mir(*module_);
+    }
+    /// How often the words occur.
+    [[nodiscard]] unsigned count(const std::string& words) const {
+        unsigned found = 0;
+        for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
+            ++found;
+        }
+        return found;
+    }
+
+    std::string text;
+    toolchain::codegen::Module mir;
+
+private:
+    llvm::LLVMContext context_;
+    std::unique_ptr<llvm::Module> module_;
+};
 
 /// Why a module is not compiled, or "accepted".
 inline std::string refusal(const std::string& text) {

@@ -1,0 +1,99 @@
+// kernel_table.cpp - figures as tables for people.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "tests/bench/kernel_figures.hpp"
+
+namespace bench {
+
+namespace {
+
+std::optional<Figure> find(const Figures& figures, const std::string& kernel,
+                           const std::string& level) {
+    for (const Figure& row : figures.rows) {
+        if (row.kernel == kernel && row.level == level) return row;
+    }
+    return std::nullopt;
+}
+
+/// 1234567 as 1,234,567.
+std::string grouped(uint64_t value) {
+    std::string text = std::to_string(value);
+    for (std::size_t at = text.size(); at > 3;) {
+        at -= 3;
+        text.insert(at, 1, ',');
+    }
+    return text;
+}
+
+/// Ratios to one column, multiplied up.
+class Mean {
+public:
+    std::string add(uint64_t ours, uint64_t theirs) {
+        if (theirs == 0) return "-";
+        const double ratio = static_cast<double>(ours) / static_cast<double>(theirs);
+        logarithms_ += std::log(ratio);
+        worst_ = std::max(worst_, ratio);
+        ++count_;
+        return fmt::format("{:.2f}", ratio);
+    }
+    [[nodiscard]] std::string mean() const {
+        return count_ == 0 ? "-" : fmt::format("{:.3f}", std::exp(logarithms_ / count_));
+    }
+    [[nodiscard]] std::string worst() const { return fmt::format("{:.2f}", worst_); }
+
+private:
+    double logarithms_ = 0;
+    double worst_ = 0;
+    int count_ = 0;
+};
+
+}  // namespace
+
+std::string table(const std::vector<Kernel>& kernels, const Figures& figures) {
+    std::string text =
+        "T-states:\n\n| kernel | O0 | O1 | O2 | Os | best existing | ratio O0 | O1 | "
+        "O2 | Os | SDCC Z80 | ratio Os |\n"
+        "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+    std::array<Mean, std::size(kLevels)> means;
+    Mean z80;
+    for (const Kernel& kernel : kernels) {
+        std::string ours;
+        std::string ratios;
+        std::string z80_ratio = "-";
+        for (std::size_t i = 0; i < std::size(kLevels); ++i) {
+            const auto figure = find(figures, kernel.name, kLevels[i].name);
+            const uint64_t t = figure ? figure->t_states : 0;
+            ours += fmt::format(" {} |", figure ? grouped(t) : "-");
+            ratios += fmt::format(" {} |", figure ? means[i].add(t, kernel.best_t) : "-");
+            if (figure && i + 1 == std::size(kLevels)) z80_ratio = z80.add(t, kernel.z80_t);
+        }
+        text += fmt::format("| {} |{} {} |{} {} | {} |\n", kernel.name, ours,
+                            kernel.best_t == 0 ? "-" : grouped(kernel.best_t), ratios,
+                            kernel.z80_t == 0 ? "-" : grouped(kernel.z80_t), z80_ratio);
+    }
+    text +=
+        fmt::format("| geometric mean | | | | | | {} | {} | {} | {} | | {} |\n", means[0].mean(),
+                    means[1].mean(), means[2].mean(), means[3].mean(), z80.mean());
+    text += fmt::format("| worst | | | | | | {} | {} | {} | {} | | {} |\n", means[0].worst(),
+                        means[1].worst(), means[2].worst(), means[3].worst(), z80.worst());
+    text +=
+        "\nBytes of code, own / with runtime routines:\n\n"
+        "| kernel | O0 | O1 | O2 | Os |\n|---|--:|--:|--:|--:|\n";
+    for (const Kernel& kernel : kernels) {
+        text += fmt::format("| {} |", kernel.name);
+        for (const LevelName& level : kLevels) {
+            const auto figure = find(figures, kernel.name, level.name);
+            text +=
+                figure ? fmt::format(" {} / {} |", figure->own_bytes, figure->total_bytes) : " - |";
+        }
+        text += "\n";
+    }
+    return text + fmt::format("\nFront end: clang {}.\n", figures.clang);
+}
+
+}  // namespace bench

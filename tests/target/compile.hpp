@@ -1,0 +1,36 @@
+// compile.hpp - how the tests of this folder compile: in memory, every message a failure.
+// Depends on   toolchain/driver.
+#pragma once
+
+#include <array>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "toolchain/driver/driver.hpp"
+
+namespace target_test {
+
+using toolchain::ir::Optimisation;
+
+struct Level {
+    Optimisation level = Optimisation::size;
+    const char* name = "Os";
+};
+inline void PrintTo(const Level& level, std::ostream* stream) {  // name from GoogleTest
+    *stream << level.name;
+}
+inline constexpr std::array kLevels = {
+    Level{Optimisation::none, "O0"}, Level{Optimisation::less, "O1"},
+    Level{Optimisation::more, "O2"}, Level{Optimisation::size, "Os"}};
+
+/// Test programs may be larger than the rover's ROM: code below E000H, data behind it.
+[[nodiscard]] inline toolchain::driver::Request request(Optimisation level) {
+    toolchain::driver::Request made;
+    made.level = level;
+    made.rom = {0x0000, 0xDFFF};
+    made.ram = {0xE000, 0xFEFF};
+    return made;
+}
+
+}  // namespace target_test

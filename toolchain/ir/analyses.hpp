@@ -1,0 +1,39 @@
+// analyses.hpp - LLVM's analyses of one function, computed when asked for; internal to
+// toolchain/ir. Depends on   libLLVM 19.
+#pragma once
+
+#include <llvm/Analysis/LoopInfo.h>
+#include <llvm/Analysis/ScalarEvolution.h>
+#include <llvm/IR/Dominators.h>
+#include <llvm/IR/PassManager.h>
+#include <llvm/Passes/PassBuilder.h>
+
+namespace toolchain::ir {
+
+/// A pass that changes the function asks anew, or tells the analyses what it did.
+class Analyses {
+public:
+    explicit Analyses(llvm::Function& function) : function_(function) {
+        llvm::PassBuilder().registerFunctionAnalyses(manager_);
+    }
+
+    template <typename Analysis>
+    typename Analysis::Result& get() {
+        return manager_.getResult<Analysis>(function_);
+    }
+    llvm::ScalarEvolution& evolution() { return get<llvm::ScalarEvolutionAnalysis>(); }
+    llvm::LoopInfo& loops() { return get<llvm::LoopAnalysis>(); }
+    llvm::DominatorTree& dominators() { return get<llvm::DominatorTreeAnalysis>(); }
+
+    /// Runs a pass of LLVM.
+    template <typename Pass>
+    void run(Pass pass) {
+        manager_.invalidate(function_, pass.run(function_, manager_));
+    }
+
+private:
+    llvm::Function& function_;
+    llvm::FunctionAnalysisManager manager_;
+};
+
+}  // namespace toolchain::ir

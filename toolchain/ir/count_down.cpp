@@ -1,0 +1,141 @@
+// count_down.cpp - counters that only count are counted down to 0, in as few bits as they need; see
+// passes.hpp.
+// Why          `DCR; JNZ` compares for nothing: 14 T-states in one register.
+// Depends on   libLLVM 19.
+#include <llvm/Analysis/ScalarEvolutionExpressions.h>
+#include <llvm/Analysis/TargetTransformInfo.h>
+#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/Instructions.h>
+#include <llvm/IR/Module.h>
+#include <llvm/Transforms/Utils/BasicBlockUtils.h>
+#include <llvm/Transforms/Utils/Local.h>
+#include <llvm/Transforms/Utils/LoopSimplify.h>
+#include <llvm/Transforms/Utils/ScalarEvolutionExpander.h>
+
+#include <algorithm>
+
+#include "toolchain/ir/analyses.hpp"
+#include "toolchain/ir/passes.hpp"
+
+namespace toolchain::ir {
+
+namespace {
+
+using llvm::ICmpInst;
+using llvm::Value;
+
+class Counter {
+public:
+    Counter(Analyses& analyses, llvm::Loop& loop, const llvm::DataLayout& layout)
+        : evolution_(analyses.evolution()),
+          costs_(analyses.get<llvm::TargetIRAnalysis>()),
+          loop_(loop),
+          expander_(evolution_, layout, "count") {
+        expander_.disableCanonicalMode();
+    }
+
+    void run() {
+        if (loop_.getLoopPreheader() == nullptr || loop_.getLoopLatch() == nullptr) return;
+        llvm::SmallVector<llvm::BasicBlock*, 4> exits;
+        loop_.getExitingBlocks(exits);
+        for (llvm::BasicBlock* block : exits) {
+            if (replace(*block)) return;
+        }
+    }
+
+private:
+    /// The phi that serves nothing but the comparison, or nullptr.
+    [[nodiscard]] llvm::PHINode* pure_counter(const ICmpInst& compare) const {
+        llvm::PHINode* found = nullptr;
+        for (llvm::PHINode& phi : loop_.getHeader()->phis()) {
+            if (!phi.getType()->isIntegerTy()) continue;
+            const Value* next = phi.getIncomingValueForBlock(loop_.getLoopLatch());
+            if (compare.getOperand(0) != &phi && compare.getOperand(0) != next &&
+                compare.getOperand(1) != &phi && compare.getOperand(1) != next) {
+                continue;
+            }
+            const auto* step = llvm::dyn_cast<llvm::BinaryOperator>(next);
+            if (step == nullptr) continue;
+            const auto only = [&](const Value* value) {
+                return std::all_of(value->user_begin(), value->user_end(), [&](const auto* user) {
+                    return user == &phi || user == next || user == &compare;
+                });
+            };
+            if (only(&phi) && only(next)) found = &phi;
+        }
+        return found;
+    }
+
+    [[nodiscard]] bool counts_down_already(const ICmpInst& compare) const {
+        const auto* number = llvm::dyn_cast<llvm::ConstantInt>(compare.getOperand(1));
+        return compare.isEquality() && number != nullptr && number->isZero();
+    }
+
+    bool replace(llvm::BasicBlock& block) {
+        auto* branch = llvm::dyn_cast<llvm::BranchInst>(block.getTerminator());
+        if (branch == nullptr || !branch->isConditional()) return false;
+        auto* compare = llvm::dyn_cast<ICmpInst>(branch->getCondition());
+        if (compare == nullptr || !compare->hasOneUse()) return false;
+        llvm::PHINode* old = pure_counter(*compare);
+        if (old == nullptr) return false;
+        const unsigned old_bits = old->getType()->getIntegerBitWidth();
+        if (old_bits <= 8 && counts_down_already(*compare)) return false;
+        // How often the branch stays in the loop before it leaves.
+        const llvm::SCEV* stays = evolution_.getExitCount(&loop_, &block);
+        if (llvm::isa<llvm::SCEVCouldNotCompute>(stays)) return false;
+        const uint64_t most = evolution_.getUnsignedRangeMax(stays).getLimitedValue();
+        const unsigned bits = most <= UINT8_MAX ? 8 : most <= UINT16_MAX ? 16 : 32;
+        if (bits > 16 || (counts_down_already(*compare) && bits >= old_bits)) return false;
+        llvm::Instruction* before = loop_.getLoopPreheader()->getTerminator();
+        constexpr unsigned kCheap = 4;
+        if (!expander_.isSafeToExpandAt(stays, before) ||
+            expander_.isHighCostExpansion({stays}, &loop_, kCheap, &costs_, before)) {
+            return false;
+        }
+        make(block, *branch, *compare, *old, stays, bits);
+        return true;
+    }
+
+    void make(llvm::BasicBlock& block, llvm::BranchInst& branch, ICmpInst& compare,
+              llvm::PHINode& old, const llvm::SCEV* stays, unsigned bits) {
+        llvm::BasicBlock* before = loop_.getLoopPreheader();
+        llvm::BasicBlock* latch = loop_.getLoopLatch();
+        const bool at_end = &block == latch;
+        llvm::Type* type = llvm::IntegerType::get(old.getContext(), bits);
+        const llvm::SCEV* start = evolution_.getTruncateOrZeroExtend(stays, type);
+        // At the end of the body the counter has been stepped once more.
+        if (at_end) start = evolution_.getAddExpr(start, evolution_.getOne(type));
+        Value* first = expander_.expandCodeFor(start, type, before->getTerminator());
+        auto* phi = llvm::PHINode::Create(type, 2, "left", loop_.getHeader()->begin());
+        llvm::IRBuilder<> builder(latch->getTerminator());
+        Value* next = builder.CreateSub(phi, llvm::ConstantInt::get(type, 1));
+        phi->addIncoming(first, before);
+        phi->addIncoming(next, latch);
+        builder.SetInsertPoint(&branch);
+        const bool stays_if_true = loop_.contains(branch.getSuccessor(0));
+        Value* test =
+            builder.CreateICmp(stays_if_true ? llvm::CmpInst::ICMP_NE : llvm::CmpInst::ICMP_EQ,
+                               at_end ? next : phi, llvm::ConstantInt::get(type, 0));
+        branch.setCondition(test);
+        evolution_.forgetLoop(&loop_);
+        llvm::RecursivelyDeleteTriviallyDeadInstructions(&compare);
+        llvm::DeleteDeadPHIs(loop_.getHeader());
+    }
+
+    llvm::ScalarEvolution& evolution_;
+    llvm::TargetTransformInfo& costs_;
+    llvm::Loop& loop_;
+    llvm::SCEVExpander expander_;
+};
+
+}  // namespace
+
+void count_down(llvm::Function& function) {
+    Analyses analyses(function);
+    analyses.run(llvm::LoopSimplifyPass());
+    for (llvm::Loop* loop : analyses.loops().getLoopsInPreorder()) {
+        Counter(analyses, *loop, function.getParent()->getDataLayout()).run();
+    }
+}
+
+}  // namespace toolchain::ir
