@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -152,30 +153,32 @@ private:
             assembly::Section frame = frame_section(names_, function, code_[i]);
             if (section_size(frame) != 0) out.sections.push_back(std::move(frame));
         }
-        for (const Variable& variable : module_.variables) {
-            out.sections.push_back(variable_section(module_, names_, variable));
+        // The most aligned ones first: then no byte is lost between them.
+        std::vector<const Variable*> variables;
+        for (const Variable& variable : module_.variables) variables.push_back(&variable);
+        std::ranges::stable_sort(variables, std::greater{}, &Variable::alignment);
+        for (const Variable* variable : variables) {
+            out.sections.push_back(variable_section(module_, names_, *variable));
         }
     }
 
     // -- Frames ----------------------------------------------------------------------------------
 
-    [[nodiscard]] uint32_t frame_size(std::size_t function) const {
-        uint32_t size = code_[function].frame_bytes;
-        for (const FrameObject& object : module_.functions[function].frame) size += object.size;
-        return size;
-    }
-
     // The main program's frames first, behind them a region for each interrupt.
     void place_frames() {
         std::vector<uint32_t> sizes(module_.functions.size(), 0);
+        std::vector<uint32_t> alignments(module_.functions.size(), 1);
         for (std::size_t i = 0; i < sizes.size(); ++i) {
-            if (is_kept(i)) sizes[i] = frame_size(i);
+            if (!is_kept(i)) continue;
+            const FrameLayout layout = frame_layout(module_.functions[i], code_[i]);
+            sizes[i] = layout.size;
+            alignments[i] = layout.alignment;
         }
         std::map<std::string, uint32_t> offsets;  // by name of the frame's function
         uint32_t start = 0;
         for (std::size_t context = 0; context < contexts_.size(); ++context) {
             const Context& here = contexts_[context];
-            const Overlay overlay = overlay_frames(graph_, here.roots, sizes, start);
+            const Overlay overlay = overlay_frames(graph_, here.roots, sizes, start, alignments);
             start = overlay.end;
             for (std::size_t i = 0; i < sizes.size(); ++i) {
                 if (!here.reached[i]) continue;
