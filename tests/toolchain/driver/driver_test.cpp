@@ -216,6 +216,25 @@ TEST(Driver, WarningsGoOn) {
     EXPECT_THAT(messages, HasSubstr("unused"));
 }
 
+TEST(Driver, SourcesMayBeLlvms) {
+    const std::string layout =
+        "target datalayout = \"e-m:e-p:16:16-i32:16-i64:16-f32:16-f64:16-"
+        "a:8-n8:16-S16\"\n";
+    const Request request = request_for(layout + "define i16 @main() { ret i16 77 }", "m.ll");
+    EXPECT_THAT(compile_to_text(request, Text::mir), HasSubstr("return [4D 00]"));
+}
+
+TEST(Driver, LlvmsSourcesOfAnotherTargetAreRefused) {
+    const Request request = request_for(
+        "target triple = \"x86_64-pc-linux-gnu\"\ndefine i32 @main() { ret i32 7 }", "m.ll");
+    EXPECT_EQ(failure_of([&] { (void)compile_to_mir(request); }),
+              "m.ll: made for another target ('x86_64-pc-linux-gnu'): compile it with "
+              "--target=msp430-none-elf");
+    const Request broken = request_for("define i16 @main() {\n  ret i16\n}\n", "m.ll");
+    EXPECT_THAT(failure_of([&] { (void)compile_to_mir(broken); }),
+                testing::StartsWith("m.ll:3: not readable for LLVM 19: "));
+}
+
 TEST(Driver, NoSourceIsAMistake) {
     EXPECT_EQ(failure_of([] { (void)compile_to_mir({}); }),
               "no source is given: name a .c or .cpp file");

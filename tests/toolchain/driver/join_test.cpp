@@ -208,6 +208,12 @@ TEST_F(Join, RefusesAssemblyOutsideOfFunctions) {
               "a.c: assembly outside of functions is not supported: use i85.h");
 }
 
+TEST_F(Join, RefusesSections) {
+    EXPECT_EQ(check("@v = global i8 0, section \".noinit\""),
+              "a.c: 'v' is to be in section '.noinit', but sections have no names here: leave the "
+              "attribute out");
+}
+
 TEST_F(Join, NamesWhatIsNotDefinedAndWhy) {
     EXPECT_EQ(check("declare void @f()\ndefine void @main() { call void @f() ret void }"),
               "a.c: 'f' is used but not defined: add the source that defines it, or correct the "
