@@ -112,6 +112,7 @@ private:
         done_.assign(module_.functions.size(), false);
         GenerateOptions options;
         options.search = options_.search;
+        options.search_budget = options_.search_budget;
         options.byte_cost = options_.byte_cost;
         options.clobbers_of = [this](SymbolId symbol) { return clobbers_of(symbol); };
         for (const std::size_t index : graph_.bottom_up()) {

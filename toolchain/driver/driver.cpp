@@ -244,6 +244,7 @@ codegen::Compiled generate(const Request& request, codegen::Module module,
     codegen::CompileOptions options;
     options.allow_recursion = request.allow_recursion;
     options.search = request.level != ir::Optimisation::none;
+    options.search_budget = request.search_budget;
     options.byte_cost = request.byte_cost;
     for (const std::string& root : roots) {
         const auto symbol = module.symbol_ids.find(root);
