@@ -235,6 +235,19 @@ TEST(Driver, LlvmsSourcesOfAnotherTargetAreRefused) {
                 testing::StartsWith("m.ll:3: not readable for LLVM 19: "));
 }
 
+TEST(Driver, NamesForPeopleAreCpps) {
+    Request request = request_for(R"(
+        template <class T> concept Small = sizeof(T) <= 2;
+        template <Small T> __attribute__((noinline)) T step(T a) { return a * 3; }
+        volatile int v;
+        int main() { return step(v); })");
+    const Result result = compile_program(request);
+    std::string titles;
+    for (const auto& placed : result.program.sections) titles += placed.section.title + "\n";
+    EXPECT_THAT(titles, HasSubstr("step"));
+    EXPECT_THAT(titles, Not(HasSubstr("_Z")));
+}
+
 TEST(Driver, NoSourceIsAMistake) {
     EXPECT_EQ(failure_of([] { (void)compile_to_mir({}); }),
               "no source is given: name a .c or .cpp file");

@@ -222,7 +222,11 @@ const std::vector<Feature> kFeatures = {
             if (n > 0) walk(n - 1, &own[1]);
             *sum += own[0] + own[1] * 2 + own[2]; return own[1]; }
         int result;
-        int main(void) { int sum = 0; walk(4, &sum); result = fib(seed) + even(seed) * 1000 + sum; })",
+        int main(void) {
+            int sum = 0;
+            walk(4, &sum);
+            result = fib(seed) + even(seed) * 1000 + sum;
+        })",
      [] {
          struct Walk {
              static int run(int n, int* sum) {
