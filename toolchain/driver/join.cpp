@@ -124,6 +124,9 @@ std::set<std::string> find_kept(std::span<const ModulePointer> modules,
                 if (wanted != symbol && wanted != whole && wanted != name) continue;
                 known = true;
                 found.insert(symbol);
+                if (value.hasLocalLinkage()) {
+                    value.setLinkage(llvm::GlobalValue::ExternalLinkage);
+                }
             }
         }
         if (!known) {

@@ -108,6 +108,12 @@ TEST_F(Join, KeepsByEveryFormOfAName) {
               "'stop' is to be kept, but no source defines it: check the name");
 }
 
+TEST_F(Join, WhatIsKeptIsVisibleThoughStatic) {
+    const auto modules = parse_all({"define internal void @step() { ret void }"});
+    EXPECT_EQ(find_kept(modules, {"step"}), std::set<std::string>{"step"});
+    EXPECT_TRUE(modules[0]->getFunction("step")->hasExternalLinkage());
+}
+
 TEST_F(Join, MangledMainIsMain) {
     const ModulePointer module = parse("define i16 @_Z4mainv() { ret i16 0 }");
     settle_main(*module);

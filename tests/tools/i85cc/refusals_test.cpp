@@ -408,6 +408,23 @@ TEST_F(Program, PrintsStagesOrWritesThem) {
     EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), printed.messages);
 }
 
+TEST_F(Program, LeavesNoTemporaryFilesWhenItIsEnded) {
+    const fs::path temporary = path() / "tmp";
+    fs::create_directory(temporary);
+    std::ofstream(path() / "clang") << "#!/bin/sh\nexec sleep 3\n";
+    fs::permissions(path() / "clang", fs::perms::owner_all);
+    const std::string script = std::string("exec 2>/dev/null; ") + I85CC_PROGRAM +
+                               " --emit=mir a.c & for i in $(seq 600); do "
+                               "test -n \"$(ls tmp)\" && break; sleep 0.05; done; "
+                               "ls tmp | wc -l; kill -TERM $!; wait $!; echo $?; ls tmp | wc -l";
+    const toolchain::driver::WorkFolder logs;
+    const std::vector<Command> commands = {
+        {{"env", "-C", path().string(), "TMPDIR=" + temporary.string(), "I85CC_CLANG=./clang", "sh",
+          "-c", script},
+         logs.path() / "log"}};
+    EXPECT_EQ(toolchain::driver::run_all(commands, 1).at(0).messages, "1\n143\n0\n");
+}
+
 TEST_F(Program, LeavesNoTemporaryFiles) {
     const fs::path temporary = path() / "tmp";
     fs::create_directory(temporary);
