@@ -4,9 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 #include <functional>
+#include <mutex>
 #include <set>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "toolchain/codegen/abi.hpp"
@@ -107,20 +111,69 @@ private:
         return owner_[function] != kNoContext;
     }
 
+    // Functions whose callees are done do not wait for one another: a level at a time, on all
+    // processors. The result does not depend on who is first.
     void generate_all() {
         code_.resize(module_.functions.size());
         done_.assign(module_.functions.size(), false);
+        for (const std::vector<std::size_t>& level : levels()) {
+            std::atomic<std::size_t> next = 0;
+            std::exception_ptr failure;
+            std::mutex failing;
+            const auto work = [&] {
+                for (std::size_t i = next++; i < level.size(); i = next++) {
+                    try {
+                        generate_one(level[i]);
+                    } catch (...) {
+                        const std::scoped_lock lock(failing);
+                        if (!failure) failure = std::current_exception();
+                    }
+                }
+            };
+            const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
+            std::vector<std::jthread> workers;
+            for (std::size_t i = 1; i < std::min(most, level.size()); ++i) {
+                workers.emplace_back(work);
+            }
+            work();
+            workers.clear();
+            if (failure) std::rethrow_exception(failure);
+            for (const std::size_t index : level) done_[index] = true;
+        }
+    }
+
+    /// Functions by the longest way down to a leaf; those that recurse together have one level.
+    [[nodiscard]] std::vector<std::vector<std::size_t>> levels() const {
+        std::map<std::size_t, std::size_t> height;  // by group
+        std::vector<std::vector<std::size_t>> result;
+        const auto& order = graph_.bottom_up();
+        for (std::size_t at = 0; at < order.size();) {
+            const std::size_t group = graph_.group(order[at]);
+            const std::size_t first = at;
+            std::size_t level = 0;
+            for (; at < order.size() && graph_.group(order[at]) == group; ++at) {
+                for (const GraphEdge& edge : graph_.callees(order[at])) {
+                    const std::size_t callee = graph_.group(edge.callee);
+                    if (callee != group) level = std::max(level, height.at(callee) + 1);
+                }
+            }
+            height[group] = level;
+            result.resize(std::max(result.size(), level + 1));
+            for (std::size_t i = first; i < at; ++i) {
+                if (is_kept(order[i])) result[level].push_back(order[i]);
+            }
+        }
+        return result;
+    }
+
+    void generate_one(std::size_t index) {
         GenerateOptions options;
         options.search = options_.search;
         options.search_budget = options_.search_budget;
         options.byte_cost = options_.byte_cost;
         options.clobbers_of = [this](SymbolId symbol) { return clobbers_of(symbol); };
-        for (const std::size_t index : graph_.bottom_up()) {
-            if (!is_kept(index)) continue;
-            set_pointer_clobbers(module_.functions[index]);
-            code_[index] = generator_(module_, module_.functions[index], options);
-            done_[index] = true;
-        }
+        set_pointer_clobbers(module_.functions[index]);
+        code_[index] = generator_(module_, module_.functions[index], options);
     }
 
     /// What is not made yet comes back through recursion, or is unknown.
