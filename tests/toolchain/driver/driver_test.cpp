@@ -140,6 +140,21 @@ TEST(Driver, ConstructorsRunBeforeMain) {
     }
 }
 
+TEST(Driver, ConstructorsOfAllSourcesRunByPriority) {
+    const std::string part =
+        "extern int result;\n"
+        "inline int step(int k) { volatile int x = k; return x; }\n"
+        "struct Part { explicit Part(int k) { result = result * 10 + step(k); } };\n";
+    for (const Optimisation level : kLevels) {
+        Request request = request_for(
+            part + "Part one(1);\nPart two(2);\nint result = 0;\nint main() {}", "a.cpp", level);
+        request.sources.push_back(
+            {"b.cpp", part + "Part three(3);\nPart four __attribute__((init_priority(200)))(4);"});
+        request.keep = {"result"};
+        EXPECT_EQ(result_of(request), 4123U);
+    }
+}
+
 TEST(Driver, ConstantInitialisationIsNoConstructor) {
     Request request = request_for(
         "struct A { int n; constexpr A(int a) : n(a) {} };\n"
