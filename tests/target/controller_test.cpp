@@ -70,7 +70,8 @@ void print_sizes(const toolchain::driver::Result& result, double seconds) {
         if (in_rom(section.section.kind)) rom += section.size;
     }
     fmt::print(
-        "compiled in {:.2f} s; ROM {} + {} data bytes, RAM: frames {}, data {}, zero {}, "
+        "compiled in {:.2f} s of processor time without clang; ROM {} + {} data bytes, RAM: frames "
+        "{}, data {}, zero {}, "
         "stack {}\n",
         seconds, rom, program.data_image.size, program.frames.size, program.data.size,
         program.zero.size, result.compiled.stack_bytes);

@@ -54,14 +54,39 @@ uint64_t cut(uint64_t value, unsigned bytes) {
     return value & (~uint64_t{0} >> (64 - 8 * bytes));
 }
 
+/// Four elements, in RAM or at an address.
+Device array(const std::string& name, unsigned bytes, uint16_t address) {
+    Device made{.name = name,
+                .declaration = fmt::format("volatile {} {}[4];", type_name(bytes), name),
+                .parts = {},
+                .address = address};
+    for (unsigned i = 0; i < 4; ++i)
+        made.parts.push_back({fmt::format("[{}]", i), i * bytes, bytes});
+    if (address != 0) {
+        made.declaration =
+            fmt::format("#define {} ((volatile {} *)0x{:X}u)", name, type_name(bytes), address);
+    }
+    return made;
+}
+
 class Writer {
 public:
     explicit Writer(uint64_t seed) : random_(seed) {
         for (const unsigned bytes : {1U, 1U, 2U, 2U, 4U}) {
             plain_.push_back({fmt::format("g{}", plain_.size()), bytes});
         }
-        devices_ = {{"v8", 1, 1},  {"v16", 2, 1}, {"v32", 4, 1}, {"a8", 1, 4},
-                    {"a16", 2, 4}, {"w8", 1, 1},  {"w16", 2, 1}};
+        for (const unsigned bytes : {1U, 2U, 4U}) {
+            const std::string name = fmt::format("v{}", 8 * bytes);
+            devices_.push_back(
+                {name, fmt::format("volatile {} {};", type_name(bytes), name), {{"", 0, bytes}}});
+        }
+        devices_.push_back(array("a8", 1, 0));
+        devices_.push_back(array("a16", 2, 0));
+        devices_.push_back(array("m16", 2, 0xFF10));  // beyond RAM
+        devices_.push_back(array("m8", 1, 0xFF20));
+        devices_.push_back({"s",
+                            "volatile struct { uint8_t a; uint16_t b; uint32_t c; } s;",
+                            {{".a", 0, 1}, {".b", 1, 2}, {".c", 3, 4}}});
     }
 
     VolatileProgram make(uint64_t seed);
@@ -84,7 +109,7 @@ private:
     struct Place {
         std::string text;
         Access access;
-        Value index;  ///< in elements
+        std::function<uint32_t(State&)> offset;
     };
     Place place();
 
@@ -136,12 +161,15 @@ Expression Writer::expression(unsigned bytes, int depth) {
 
 Writer::Place Writer::place() {
     const Device device = devices_[below(static_cast<uint32_t>(devices_.size()))];
-    Access access{.object = device.name, .bytes = device.element_bytes};
-    if (device.elements == 1) return {device.name, access, [](State&) { return uint64_t{0}; }};
+    const Device::Part part = device.parts[below(static_cast<uint32_t>(device.parts.size()))];
+    const Access access{.object = device.name, .bytes = part.bytes};
+    if (!part.name.starts_with("[") || below(2) == 0) {
+        return {device.name + part.name, access, [=](State&) { return part.offset; }};
+    }
     const Expression index = leaf(1);
-    const unsigned mask = device.elements - 1;
-    return {fmt::format("{}[{} & {}]", device.name, index.text, mask), access,
-            [=](State& state) { return index.value(state) & mask; }};
+    return {fmt::format("{}[{} & 3]", device.name, index.text), access, [=](State& state) {
+                return static_cast<uint32_t>((index.value(state) & 3) * part.bytes);
+            }};
 }
 
 Statement Writer::device_statement() {
@@ -152,7 +180,7 @@ Statement Writer::device_statement() {
     const auto access = [=](State& state, Access::Kind kind) {
         Access made = where.access;
         made.kind = kind;
-        made.offset = static_cast<uint32_t>(where.index(state) * bytes);
+        made.offset = where.offset(state);
         return made;
     };
     const auto store = [=](State& state, uint64_t value) {
@@ -301,11 +329,7 @@ VolatileProgram Writer::make(uint64_t seed) {
     VolatileProgram program;
     State state{.seed = seed, .reads = 0, .plain = {}, .accesses = {}};
     program.text = "#include <i85.h>\n";
-    for (const Device& device : devices_) {
-        program.text +=
-            fmt::format("volatile {} {}{};\n", type_name(device.element_bytes), device.name,
-                        device.elements == 1 ? "" : fmt::format("[{}]", device.elements));
-    }
+    for (const Device& device : devices_) program.text += device.declaration + "\n";
     for (const Variable& variable : plain_) {
         const uint64_t value = cut(random_(), variable.bytes);
         state.plain[variable.name] = value;

@@ -27,11 +27,18 @@ struct Access {
 /// The value that access number `index` to the outside gets.
 [[nodiscard]] uint64_t outside_value(uint64_t seed, uint64_t index);
 
-/// A variable of the program that the outside watches and feeds.
+/// A variable of the program, or a device at an address, that the outside watches and feeds.
 struct Device {
+    /// What C accesses as a whole: an element, a member.
+    struct Part {
+        std::string name{};  ///< behind the device's: "", "[2]", ".rate"
+        unsigned offset = 0;
+        unsigned bytes = 1;
+    };
     std::string name{};
-    unsigned element_bytes = 1;
-    unsigned elements = 1;
+    std::string declaration{};  ///< in C
+    std::vector<Part> parts{};
+    uint16_t address = 0;  ///< 0: a variable, which the linker places
 };
 
 struct VolatileProgram {

@@ -21,13 +21,15 @@ void WatchedBus::watch(const Device& device, uint16_t address) {
     places_.push_back({device, address});
 }
 
-const WatchedBus::Place* WatchedBus::find(uint16_t address) const {
-    if (!watching_) return nullptr;
+WatchedBus::Byte WatchedBus::find(uint16_t address) const {
+    if (!watching_) return {};
     for (const Place& place : places_) {
-        const unsigned size = place.device.element_bytes * place.device.elements;
-        if (address >= place.address && address < place.address + size) return &place;
+        for (const Device::Part& part : place.device.parts) {
+            const unsigned index = address - place.address - part.offset;
+            if (index < part.bytes) return {&place, part, index};
+        }
     }
-    return nullptr;
+    return {};
 }
 
 void WatchedBus::close() {
@@ -44,21 +46,20 @@ void WatchedBus::note(const Access& access) {
     accesses_.push_back(access);
 }
 
-Access& WatchedBus::open(Access::Kind kind, const Place& place, uint16_t address) {
-    const unsigned bytes = place.device.element_bytes;
-    const unsigned from_start = address - place.address;
-    const unsigned byte = from_start % bytes;
-    const bool belongs = open_ && open_->kind == kind && open_->object == place.device.name &&
-                         open_->offset == from_start - byte && (open_bytes_ >> byte & 1) == 0;
+Access& WatchedBus::open(Access::Kind kind, const Byte& byte) {
+    const Device& device = byte.place->device;
+    const bool belongs = open_ && open_->kind == kind && open_->object == device.name &&
+                         open_->offset == byte.part.offset && (open_bytes_ >> byte.index & 1) == 0;
     if (!belongs) {
         close();
-        open_ = Access{
-            .kind = kind, .object = place.device.name, .offset = from_start - byte, .bytes = bytes};
+        const unsigned bytes = byte.part.bytes;
+        open_ =
+            Access{.kind = kind, .object = device.name, .offset = byte.part.offset, .bytes = bytes};
         if (kind == Access::Kind::read) {
             open_->value = outside_value(seed_, reads_++) & (~uint64_t{0} >> (64 - 8 * bytes));
         }
     }
-    open_bytes_ |= 1U << byte;
+    open_bytes_ |= 1U << byte.index;
     return *open_;
 }
 
@@ -70,24 +71,22 @@ uint8_t WatchedBus::fetch(uint16_t address, uint64_t) {
 }
 
 uint8_t WatchedBus::read(uint16_t address, uint64_t) {
-    const Place* place = find(address);
-    if (place == nullptr) return memory_.bytes[address];
-    const Access& access = open(Access::Kind::read, *place, address);
-    const unsigned byte = (address - place->address) % place->device.element_bytes;
-    const auto value = static_cast<uint8_t>(access.value >> 8 * byte);
+    const Byte byte = find(address);
+    if (byte.place == nullptr) return memory_.bytes[address];
+    const Access& access = open(Access::Kind::read, byte);
+    const auto value = static_cast<uint8_t>(access.value >> 8 * byte.index);
     if (open_bytes_ == (1U << access.bytes) - 1U) close();
     return value;
 }
 
 void WatchedBus::write(uint16_t address, uint8_t value, uint64_t) {
-    const Place* place = find(address);
-    if (place == nullptr) {
+    const Byte byte = find(address);
+    if (byte.place == nullptr) {
         memory_.bytes[address] = value;
         return;
     }
-    Access& access = open(Access::Kind::write, *place, address);
-    const unsigned byte = (address - place->address) % place->device.element_bytes;
-    access.value |= static_cast<uint64_t>(value) << 8 * byte;
+    Access& access = open(Access::Kind::write, byte);
+    access.value |= static_cast<uint64_t>(value) << 8 * byte.index;
     if (open_bytes_ == (1U << access.bytes) - 1U) close();
 }
 
@@ -111,7 +110,10 @@ WatchedRun run_watched(const toolchain::assembly::Program& program,
     WatchedBus bus(memory, seed);
     for (const Device& device : devices) {
         const toolchain::assembly::Symbol* symbol = program.find(device.name);
-        if (symbol != nullptr) bus.watch(device, symbol->value);
+        if (symbol == nullptr && device.address == 0) {
+            throw std::runtime_error(device.name + " is not in the program");
+        }
+        bus.watch(device, symbol == nullptr ? device.address : symbol->value);
     }
     const toolchain::assembly::Symbol* main = program.find("main");
     if (main == nullptr) throw std::runtime_error("the program has no main");

@@ -45,9 +45,15 @@ private:
         Device device;
         uint16_t address = 0;
     };
-    [[nodiscard]] const Place* find(uint16_t address) const;
+    /// What is accessed as a whole, and which byte of it.
+    struct Byte {
+        const Place* place = nullptr;  ///< nullptr: memory
+        Device::Part part{};
+        unsigned index = 0;
+    };
+    [[nodiscard]] Byte find(uint16_t address) const;
     /// The open access if the byte belongs to it, else a new one.
-    Access& open(Access::Kind kind, const Place& place, uint16_t address);
+    Access& open(Access::Kind kind, const Byte& byte);
     void close();
     void note(const Access& access);
 

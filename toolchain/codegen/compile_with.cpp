@@ -4,8 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
 #include <set>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "toolchain/codegen/abi.hpp"
@@ -106,19 +111,69 @@ private:
         return owner_[function] != kNoContext;
     }
 
+    // Functions whose callees are done do not wait for one another: a level at a time, on all
+    // processors. The result does not depend on who is first.
     void generate_all() {
         code_.resize(module_.functions.size());
         done_.assign(module_.functions.size(), false);
+        for (const std::vector<std::size_t>& level : levels()) {
+            std::atomic<std::size_t> next = 0;
+            std::exception_ptr failure;
+            std::mutex failing;
+            const auto work = [&] {
+                for (std::size_t i = next++; i < level.size(); i = next++) {
+                    try {
+                        generate_one(level[i]);
+                    } catch (...) {
+                        const std::scoped_lock lock(failing);
+                        if (!failure) failure = std::current_exception();
+                    }
+                }
+            };
+            const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
+            std::vector<std::jthread> workers;
+            for (std::size_t i = 1; i < std::min(most, level.size()); ++i) {
+                workers.emplace_back(work);
+            }
+            work();
+            workers.clear();
+            if (failure) std::rethrow_exception(failure);
+            for (const std::size_t index : level) done_[index] = true;
+        }
+    }
+
+    /// Functions by the longest way down to a leaf; those that recurse together have one level.
+    [[nodiscard]] std::vector<std::vector<std::size_t>> levels() const {
+        std::map<std::size_t, std::size_t> height;  // by group
+        std::vector<std::vector<std::size_t>> result;
+        const auto& order = graph_.bottom_up();
+        for (std::size_t at = 0; at < order.size();) {
+            const std::size_t group = graph_.group(order[at]);
+            const std::size_t first = at;
+            std::size_t level = 0;
+            for (; at < order.size() && graph_.group(order[at]) == group; ++at) {
+                for (const GraphEdge& edge : graph_.callees(order[at])) {
+                    const std::size_t callee = graph_.group(edge.callee);
+                    if (callee != group) level = std::max(level, height.at(callee) + 1);
+                }
+            }
+            height[group] = level;
+            result.resize(std::max(result.size(), level + 1));
+            for (std::size_t i = first; i < at; ++i) {
+                if (is_kept(order[i])) result[level].push_back(order[i]);
+            }
+        }
+        return result;
+    }
+
+    void generate_one(std::size_t index) {
         GenerateOptions options;
         options.search = options_.search;
+        options.search_budget = options_.search_budget;
         options.byte_cost = options_.byte_cost;
         options.clobbers_of = [this](SymbolId symbol) { return clobbers_of(symbol); };
-        for (const std::size_t index : graph_.bottom_up()) {
-            if (!is_kept(index)) continue;
-            set_pointer_clobbers(module_.functions[index]);
-            code_[index] = generator_(module_, module_.functions[index], options);
-            done_[index] = true;
-        }
+        set_pointer_clobbers(module_.functions[index]);
+        code_[index] = generator_(module_, module_.functions[index], options);
     }
 
     /// What is not made yet comes back through recursion, or is unknown.
@@ -152,30 +207,32 @@ private:
             assembly::Section frame = frame_section(names_, function, code_[i]);
             if (section_size(frame) != 0) out.sections.push_back(std::move(frame));
         }
-        for (const Variable& variable : module_.variables) {
-            out.sections.push_back(variable_section(module_, names_, variable));
+        // The most aligned ones first: then no byte is lost between them.
+        std::vector<const Variable*> variables;
+        for (const Variable& variable : module_.variables) variables.push_back(&variable);
+        std::ranges::stable_sort(variables, std::greater{}, &Variable::alignment);
+        for (const Variable* variable : variables) {
+            out.sections.push_back(variable_section(module_, names_, *variable));
         }
     }
 
     // -- Frames ----------------------------------------------------------------------------------
 
-    [[nodiscard]] uint32_t frame_size(std::size_t function) const {
-        uint32_t size = code_[function].frame_bytes;
-        for (const FrameObject& object : module_.functions[function].frame) size += object.size;
-        return size;
-    }
-
     // The main program's frames first, behind them a region for each interrupt.
     void place_frames() {
         std::vector<uint32_t> sizes(module_.functions.size(), 0);
+        std::vector<uint32_t> alignments(module_.functions.size(), 1);
         for (std::size_t i = 0; i < sizes.size(); ++i) {
-            if (is_kept(i)) sizes[i] = frame_size(i);
+            if (!is_kept(i)) continue;
+            const FrameLayout layout = frame_layout(module_.functions[i], code_[i]);
+            sizes[i] = layout.size;
+            alignments[i] = layout.alignment;
         }
         std::map<std::string, uint32_t> offsets;  // by name of the frame's function
         uint32_t start = 0;
         for (std::size_t context = 0; context < contexts_.size(); ++context) {
             const Context& here = contexts_[context];
-            const Overlay overlay = overlay_frames(graph_, here.roots, sizes, start);
+            const Overlay overlay = overlay_frames(graph_, here.roots, sizes, start, alignments);
             start = overlay.end;
             for (std::size_t i = 0; i < sizes.size(); ++i) {
                 if (!here.reached[i]) continue;

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "toolchain/codegen/abi.hpp"
+#include "toolchain/codegen/overlay.hpp"
 
 namespace toolchain::codegen {
 
@@ -102,6 +104,7 @@ Section code_section(const Module& module, const SafeNames& names, const Functio
     const auto first = std::ranges::find_if(
         code.items, [](const CodeItem& item) { return item.file != kNone && item.line != 0; });
     if (first != code.items.end()) section.location = location_of(first->file, first->line);
+    if (function.address_taken) section.alignment = function.alignment;
     section.items.push_back(
         assembly::label(section.name, assembly::LabelKind::automatic, 0, section.location));
     for (const CodeItem& item : code.items) {
@@ -127,20 +130,41 @@ Section code_section(const Module& module, const SafeNames& names, const Functio
     return section;
 }
 
+FrameLayout frame_layout(const Function& function, const FunctionCode& code) {
+    FrameLayout layout;
+    for (const FrameObject& object : function.frame) layout.objects.push_back(&object);
+    std::ranges::stable_sort(layout.objects, std::greater{}, &FrameObject::alignment);
+    for (const FrameObject* object : layout.objects) {
+        layout.alignment = std::max(layout.alignment, object->alignment);
+        layout.offsets.push_back(aligned(layout.size, object->alignment));
+        layout.size = layout.offsets.back() + object->size;
+    }
+    layout.size += code.frame_bytes;
+    return layout;
+}
+
 Section frame_section(const SafeNames& names, const Function& function, const FunctionCode& code) {
     Section section;
     section.function = names.of(function.symbol);
     section.name = frame_label(section.function);
     section.kind = SectionKind::frame;
+    const FrameLayout layout = frame_layout(function, code);
+    section.alignment = layout.alignment;
+    uint32_t end = 0;
+    for (std::size_t i = 0; i < layout.objects.size(); ++i) {
+        const FrameObject& object = *layout.objects[i];
+        if (layout.offsets[i] != end) {
+            section.items.push_back(assembly::space(layout.offsets[i] - end));
+        }
+        section.items.push_back(
+            assembly::label(names.of(object.symbol), assembly::LabelKind::data, object.size));
+        section.items.push_back(assembly::space(object.size));
+        end = layout.offsets[i] + object.size;
+    }
     if (code.frame_bytes != 0) {
         section.items.push_back(
             assembly::label(section.name, assembly::LabelKind::data, code.frame_bytes));
         section.items.push_back(assembly::space(code.frame_bytes));
-    }
-    for (const FrameObject& object : function.frame) {
-        section.items.push_back(
-            assembly::label(names.of(object.symbol), assembly::LabelKind::data, object.size));
-        section.items.push_back(assembly::space(object.size));
     }
     return section;
 }
@@ -150,6 +174,7 @@ Section variable_section(const Module& module, const SafeNames& names, const Var
     const std::string& original = module.symbols[variable.symbol];
     section.name = names.of(variable.symbol);
     section.title = demangled(original);
+    section.alignment = variable.alignment;
     section.items.push_back(
         assembly::label(section.name, assembly::LabelKind::data, variable.size));
     // What calls write before it is read needs no clearing.

@@ -2,7 +2,9 @@
 // Depends on   machine.hpp, names.hpp, toolchain/asm/object.hpp.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "toolchain/asm/object.hpp"
 #include "toolchain/codegen/machine.hpp"
@@ -18,7 +20,17 @@ namespace toolchain::codegen {
 [[nodiscard]] assembly::Section code_section(const Module& module, const SafeNames& names,
                                              const Function& function, const FunctionCode& code);
 
-/// Its static frame: slots, then its FrameObjects. May have no bytes.
+/// Where the parts of a static frame are: FrameObjects, the most aligned ones first, then slots.
+struct FrameLayout {
+    std::vector<const FrameObject*> objects{};
+    std::vector<uint32_t> offsets{};  ///< of the objects
+    uint32_t alignment = 1;
+    uint32_t size = 0;
+};
+
+[[nodiscard]] FrameLayout frame_layout(const Function& function, const FunctionCode& code);
+
+/// Its static frame. May have no bytes.
 [[nodiscard]] assembly::Section frame_section(const SafeNames& names, const Function& function,
                                               const FunctionCode& code);
 

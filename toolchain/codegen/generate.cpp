@@ -37,6 +37,7 @@ public:
         next_label_ = static_cast<uint32_t>(facts_.function.blocks.size());
         HomesOptions homes;
         homes.search = options_.search;
+        homes.budget = options_.search_budget;
         homes.byte_cost = options_.byte_cost;
         homes.recipes.next_label = &next_label_;
         homes.recipes.clobbers_data = this;

@@ -11,6 +11,7 @@ namespace toolchain::codegen {
 
 struct GenerateOptions {
     bool search = true;    ///< look for register homes; without it every value lives in memory
+    uint64_t search_budget = 0;  ///< operations to translate at most while searching; 0: by size
     double byte_cost = 1;  ///< T-states per execution that a byte of code is worth
     /// What a call of a function may change. Not asked for runtime routines.
     std::function<RegisterSet(SymbolId)> clobbers_of{};

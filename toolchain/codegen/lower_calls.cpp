@@ -78,9 +78,13 @@ class StackVariables {
 public:
     explicit StackVariables(Function& function) : function_(function) {
         for (const FrameObject& object : function.frame) {
-            offsets_[object.symbol] = function.stack_bytes;
-            function.stack_bytes += object.size;
+            // SP is even, so that is as far as alignment can go.
+            uint32_t& bytes = function.stack_bytes;
+            if (object.alignment > 1) bytes += bytes % 2;
+            offsets_[object.symbol] = bytes;
+            bytes += object.size;
         }
+        function.stack_bytes += function.stack_bytes % 2;
         function.frame.clear();
     }
 

@@ -144,6 +144,7 @@ struct Block {
 struct FrameObject {
     SymbolId symbol = kNone;
     uint32_t size = 0;
+    uint32_t alignment = 1;  ///< a power of two; the optimiser may rely on it
 };
 
 struct Function {
@@ -155,6 +156,7 @@ struct Function {
     std::vector<ByteInfo> bytes{};
     std::vector<FrameObject> frame{};
     bool address_taken = false;  ///< may be called through a pointer
+    uint32_t alignment = 1;      ///< of its address, if that is taken: C++ keeps a bit in it
     SymbolId signature = kNone;  ///< sizes of arguments and result, if address_taken
     bool recursive = false;      ///< its calls that re-enter save the slots; its FrameObjects are
                                  ///< `NAME@args`, `NAME@result`: read at once, so never saved
@@ -175,6 +177,7 @@ struct Datum {
 struct Variable {
     SymbolId symbol = kNone;
     uint32_t size = 0;
+    uint32_t alignment = 1;        ///< a power of two; the optimiser may rely on it
     bool is_constant = false;      ///< may stay in ROM
     std::vector<Datum> initial{};  ///< empty: zero
 };

@@ -8,7 +8,8 @@ namespace toolchain::codegen {
 
 // Groups of functions that call one another lie behind each other like one frame, callers first.
 Overlay overlay_frames(const CallGraph& graph, std::span<const std::size_t> roots,
-                       std::span<const uint32_t> sizes, uint32_t start) {
+                       std::span<const uint32_t> sizes, uint32_t start,
+                       std::span<const uint32_t> alignments) {
     Overlay overlay;
     overlay.offsets.assign(sizes.size(), start);
     overlay.end = start;
@@ -23,6 +24,8 @@ Overlay overlay_frames(const CallGraph& graph, std::span<const std::size_t> root
         if (place == base.end()) continue;
         uint32_t next = place->second;
         for (std::size_t i = at; i < last; ++i) {
+            const uint32_t alignment = alignments.empty() ? 1 : alignments[bottom_up[i]];
+            if (sizes[bottom_up[i]] != 0) next = aligned(next, alignment);
             overlay.offsets[bottom_up[i]] = next;
             next += sizes[bottom_up[i]];
         }

@@ -19,8 +19,15 @@ struct Overlay {
 };
 
 /// A frame begins where the longest of its callers' frames ends; the roots' at `start`.
-/// @param sizes  bytes of the frames, by function
+/// @param sizes       bytes of the frames, by function
+/// @param alignments  powers of two, by function; empty: all 1
 [[nodiscard]] Overlay overlay_frames(const CallGraph& graph, std::span<const std::size_t> roots,
-                                     std::span<const uint32_t> sizes, uint32_t start);
+                                     std::span<const uint32_t> sizes, uint32_t start,
+                                     std::span<const uint32_t> alignments = {});
+
+/// The next multiple of a power of two.
+[[nodiscard]] constexpr uint32_t aligned(uint32_t offset, uint32_t alignment) {
+    return (offset + alignment - 1) & ~(alignment - 1);
+}
 
 }  // namespace toolchain::codegen

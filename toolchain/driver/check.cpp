@@ -69,6 +69,11 @@ std::string source_name(llvm::StringRef symbol) {
     return llvm::demangle((is_member ? object : symbol).str());
 }
 
+std::string place_of(const llvm::GlobalObject& object) {
+    const auto* function = llvm::dyn_cast<llvm::Function>(&object);
+    return function != nullptr ? place_of(*function) : object.getParent()->getSourceFileName();
+}
+
 /// A place where a constant is used, through expressions and initial values.
 std::string place_of_use(const llvm::Constant& constant, unsigned depth = 0) {
     constexpr unsigned kDeepest = 8;
@@ -108,6 +113,7 @@ public:
 
     void check_functions() {
         check_assembly();
+        check_sections();
         check_interrupts();
         check_calls();
     }
@@ -137,6 +143,17 @@ private:
         if (module_.getModuleInlineAsm().empty()) return;
         add(fmt::format("{}: assembly outside of functions is not supported: use i85.h",
                         module_.getSourceFileName()));
+    }
+
+    void check_sections() {
+        for (const llvm::GlobalObject& object : module_.global_objects()) {
+            if (!object.hasSection() || object.getName().starts_with("llvm.")) continue;
+            add(
+                fmt::format("{}: '{}' is to be in section '{}', but sections have no names here: "
+                            "leave the attribute out",
+                            place_of(object), llvm::demangle(object.getName().str()),
+                            object.getSection().str()));
+        }
     }
 
     void check_missing() {

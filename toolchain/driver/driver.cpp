@@ -2,6 +2,7 @@
 #include "toolchain/driver/driver.hpp"
 
 #include <fmt/format.h>
+#include <llvm/Demangle/Demangle.h>
 #include <llvm/IR/Verifier.h>
 #include <llvm/Support/raw_ostream.h>
 
@@ -235,6 +236,15 @@ std::vector<assembly::Module> runtime_modules() {
     return modules;
 }
 
+/// LLVM's demangler knows C++20's names, which that of an older C++ library does not.
+void add_titles(assembly::Module& module) {
+    for (assembly::Section& section : module.sections) {
+        if (!section.title.empty() || !section.name.starts_with("_Z")) continue;
+        std::string title = llvm::demangle(section.name);
+        if (title != section.name) section.title = std::move(title);
+    }
+}
+
 codegen::Compiled generate(const Request& request, codegen::Module module,
                            const std::vector<std::string>& roots) {
     const codegen::SymbolId main = module.intern("main");
@@ -244,6 +254,7 @@ codegen::Compiled generate(const Request& request, codegen::Module module,
     codegen::CompileOptions options;
     options.allow_recursion = request.allow_recursion;
     options.search = request.level != ir::Optimisation::none;
+    options.search_budget = request.search_budget;
     options.byte_cost = request.byte_cost;
     for (const std::string& root : roots) {
         const auto symbol = module.symbol_ids.find(root);
@@ -251,7 +262,9 @@ codegen::Compiled generate(const Request& request, codegen::Module module,
             options.roots.push_back(root);
         }
     }
-    return codegen::compile(std::move(module), runtime_modules(), options);
+    codegen::Compiled compiled = codegen::compile(std::move(module), runtime_modules(), options);
+    add_titles(compiled.module);
+    return compiled;
 }
 
 void check_ranges(const Request& request) {

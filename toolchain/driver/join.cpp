@@ -64,6 +64,13 @@ ModulePointer read_module(const std::filesystem::path& file, const std::string& 
                         "built-in function of another processor",
                         name, std::max(problem.getLineNo(), 1), problem.getMessage().str()));
     }
+    constexpr unsigned kPointerBits = 16;
+    if (module->getDataLayout().getPointerSizeInBits() != kPointerBits) {
+        throw Failed(
+            fmt::format("{}: made for another target ('{}'): compile it with "
+                        "--target=msp430-none-elf",
+                        name, module->getTargetTriple()));
+    }
     module->setSourceFileName(name);
     return module;
 }
@@ -117,6 +124,9 @@ std::set<std::string> find_kept(std::span<const ModulePointer> modules,
                 if (wanted != symbol && wanted != whole && wanted != name) continue;
                 known = true;
                 found.insert(symbol);
+                if (value.hasLocalLinkage()) {
+                    value.setLinkage(llvm::GlobalValue::ExternalLinkage);
+                }
             }
         }
         if (!known) {

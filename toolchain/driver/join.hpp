@@ -29,7 +29,8 @@ void link_into(llvm::Module& into, ModulePointer from);
 /// Names that are used in one of the modules and defined in none.
 [[nodiscard]] std::set<std::string> missing_names(std::span<const ModulePointer> modules);
 
-/// The symbols that `keep` means: by symbol, or demangled with or without parameters.
+/// The symbols that `keep` means: by symbol, or demangled with or without parameters. Those that
+/// are static become visible.
 /// @errors Failed: a name that nothing bears
 [[nodiscard]] std::set<std::string> find_kept(std::span<const ModulePointer> modules,
                                               const std::vector<std::string>& keep);

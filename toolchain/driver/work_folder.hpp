@@ -16,6 +16,9 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
+    /// Removes all that exist now: for a program that is about to be killed.
+    static void remove_all();
+
 private:
     std::filesystem::path path_;
 };

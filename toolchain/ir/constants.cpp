@@ -147,6 +147,7 @@ codegen::Variable make_variable(codegen::Module& out, const llvm::DataLayout& la
     codegen::Variable result;
     result.symbol = out.intern(variable.getName().str());
     result.size = static_cast<uint32_t>(layout.getTypeAllocSize(variable.getValueType()));
+    result.alignment = static_cast<uint32_t>(variable.getAlign().valueOrOne().value());
     result.is_constant = variable.isConstant();
     if (variable.hasInitializer() && !variable.getInitializer()->isNullValue()) {
         try {

@@ -13,8 +13,10 @@
 #include <llvm/Transforms/Utils/ScalarEvolutionExpander.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "toolchain/ir/analyses.hpp"
+#include "toolchain/ir/exit_count.hpp"
 #include "toolchain/ir/passes.hpp"
 
 namespace toolchain::ir {
@@ -27,7 +29,8 @@ using llvm::Value;
 class Counter {
 public:
     Counter(Analyses& analyses, llvm::Loop& loop, const llvm::DataLayout& layout)
-        : evolution_(analyses.evolution()),
+        : loops_(analyses.loops()),
+          evolution_(analyses.evolution()),
           costs_(analyses.get<llvm::TargetIRAnalysis>()),
           loop_(loop),
           expander_(evolution_, layout, "count") {
@@ -39,7 +42,8 @@ public:
         llvm::SmallVector<llvm::BasicBlock*, 4> exits;
         loop_.getExitingBlocks(exits);
         for (llvm::BasicBlock* block : exits) {
-            if (replace(*block)) return;
+            // A block of a loop inside runs more than once each time around.
+            if (loops_.getLoopFor(block) == &loop_ && replace(*block)) return;
         }
     }
 
@@ -80,20 +84,55 @@ private:
         if (old == nullptr) return false;
         const unsigned old_bits = old->getType()->getIntegerBitWidth();
         if (old_bits <= 8 && counts_down_already(*compare)) return false;
-        // How often the branch stays in the loop before it leaves.
-        const llvm::SCEV* stays = evolution_.getExitCount(&loop_, &block);
-        if (llvm::isa<llvm::SCEVCouldNotCompute>(stays)) return false;
-        const uint64_t most = evolution_.getUnsignedRangeMax(stays).getLimitedValue();
-        const unsigned bits = most <= UINT8_MAX ? 8 : most <= UINT16_MAX ? 16 : 32;
-        if (bits > 16 || (counts_down_already(*compare) && bits >= old_bits)) return false;
-        llvm::Instruction* before = loop_.getLoopPreheader()->getTerminator();
-        constexpr unsigned kCheap = 4;
-        if (!expander_.isSafeToExpandAt(stays, before) ||
-            expander_.isHighCostExpansion({stays}, &loop_, kCheap, &costs_, before)) {
-            return false;
-        }
+        const llvm::SCEV* stays = cheap_exit_count(evolution_, costs_, expander_, loop_, block);
+        if (stays == nullptr) return false;
+        const bool byte = evolution_.getUnsignedRangeMax(stays).ule(UINT8_MAX);
+        const unsigned bits = byte ? 8 : 16;
+        if (counts_down_already(*compare) && bits >= old_bits) return false;
+        if (!byte && compare_pointer(block, *branch, *compare, stays)) return true;
         make(block, *branch, *compare, *old, stays, bits);
         return true;
+    }
+
+    /// A pointer that starts at a known place and steps evenly has a known end: no counter at all.
+    bool compare_pointer(llvm::BasicBlock& block, llvm::BranchInst& branch, ICmpInst& compare,
+                         const llvm::SCEV* stays) {
+        llvm::BasicBlock* latch = loop_.getLoopLatch();
+        const auto* count = llvm::dyn_cast<llvm::SCEVConstant>(stays);
+        if (&block != latch || count == nullptr) return false;
+        for (llvm::PHINode& phi : loop_.getHeader()->phis()) {
+            if (!phi.getType()->isPointerTy()) continue;
+            const auto* form = llvm::dyn_cast<llvm::SCEVAddRecExpr>(evolution_.getSCEV(&phi));
+            auto* start = llvm::dyn_cast<llvm::Constant>(
+                phi.getIncomingValueForBlock(loop_.getLoopPreheader()));
+            if (form == nullptr || form->getLoop() != &loop_ || start == nullptr) continue;
+            const auto* step =
+                llvm::dyn_cast<llvm::SCEVConstant>(form->getStepRecurrence(evolution_));
+            if (step == nullptr) continue;
+            // It must not pass its end before the last step.
+            const int64_t rounds = count->getAPInt().getSExtValue() + 1;
+            const int64_t whole = rounds * step->getAPInt().getSExtValue();
+            if (whole == 0 || std::abs(whole) > UINT16_MAX) continue;
+            llvm::IRBuilder<> builder(&branch);
+            llvm::Constant* end = llvm::ConstantExpr::getGetElementPtr(
+                builder.getInt8Ty(), start,
+                llvm::ConstantInt::getSigned(builder.getInt16Ty(), whole));
+            Value* next = phi.getIncomingValueForBlock(latch);
+            finish(branch, compare, next, end);
+            return true;
+        }
+        return false;
+    }
+
+    /// The loop is left when both are equal.
+    void finish(llvm::BranchInst& branch, ICmpInst& compare, Value* left, Value* right) {
+        llvm::IRBuilder<> builder(&branch);
+        const bool stays_if_true = loop_.contains(branch.getSuccessor(0));
+        branch.setCondition(builder.CreateICmp(
+            stays_if_true ? llvm::CmpInst::ICMP_NE : llvm::CmpInst::ICMP_EQ, left, right));
+        evolution_.forgetLoop(&loop_);
+        llvm::RecursivelyDeleteTriviallyDeadInstructions(&compare);
+        llvm::DeleteDeadPHIs(loop_.getHeader());
     }
 
     void make(llvm::BasicBlock& block, llvm::BranchInst& branch, ICmpInst& compare,
@@ -111,17 +150,10 @@ private:
         Value* next = builder.CreateSub(phi, llvm::ConstantInt::get(type, 1));
         phi->addIncoming(first, before);
         phi->addIncoming(next, latch);
-        builder.SetInsertPoint(&branch);
-        const bool stays_if_true = loop_.contains(branch.getSuccessor(0));
-        Value* test =
-            builder.CreateICmp(stays_if_true ? llvm::CmpInst::ICMP_NE : llvm::CmpInst::ICMP_EQ,
-                               at_end ? next : phi, llvm::ConstantInt::get(type, 0));
-        branch.setCondition(test);
-        evolution_.forgetLoop(&loop_);
-        llvm::RecursivelyDeleteTriviallyDeadInstructions(&compare);
-        llvm::DeleteDeadPHIs(loop_.getHeader());
+        finish(branch, compare, at_end ? next : phi, llvm::ConstantInt::get(type, 0));
     }
 
+    llvm::LoopInfo& loops_;
     llvm::ScalarEvolution& evolution_;
     llvm::TargetTransformInfo& costs_;
     llvm::Loop& loop_;
@@ -129,6 +161,22 @@ private:
 };
 
 }  // namespace
+
+const llvm::SCEV* cheap_exit_count(llvm::ScalarEvolution& evolution,
+                                   const llvm::TargetTransformInfo& costs,
+                                   llvm::SCEVExpander& expander, llvm::Loop& loop,
+                                   llvm::BasicBlock& exit) {
+    constexpr unsigned kCheap = 4;
+    const llvm::SCEV* count = evolution.getExitCount(&loop, &exit);
+    if (llvm::isa<llvm::SCEVCouldNotCompute>(count)) return nullptr;
+    if (evolution.getUnsignedRangeMax(count).ugt(UINT16_MAX)) return nullptr;
+    llvm::Instruction* before = loop.getLoopPreheader()->getTerminator();
+    if (!expander.isSafeToExpandAt(count, before) ||
+        expander.isHighCostExpansion({count}, &loop, kCheap, &costs, before)) {
+        return nullptr;
+    }
+    return count;
+}
 
 void count_down(llvm::Function& function) {
     Analyses analyses(function);

@@ -2,7 +2,7 @@
 // How          selects of a block with the same condition share one branch where nothing in between
 //              forbids it. What only one of two values needs is computed on its way.
 // Depends on   libLLVM 19.
-#include <llvm/IR/IRBuilder.h>
+#include <llvm/Analysis/ValueTracking.h>
 #include <llvm/IR/Instructions.h>
 #include <llvm/Transforms/Utils/BasicBlockUtils.h>
 
@@ -20,23 +20,51 @@ using llvm::BasicBlock;
 using llvm::Instruction;
 using llvm::SelectInst;
 
-/// May the select stand in front of `place`, earlier in its block?
-bool may_move_up(const SelectInst& select, const Instruction& place) {
-    return std::all_of(select.op_begin(), select.op_end(), [&](const llvm::Use& use) {
-        const auto* operand = llvm::dyn_cast<Instruction>(use.get());
-        return operand == nullptr || operand->getParent() != select.getParent() ||
-               (operand != &place && operand->comesBefore(&place));
+/// Can the value be had in front of `place`, with what it is computed from?
+bool may_move_up(const llvm::Value* value, const Instruction& place, unsigned depth = 0) {
+    constexpr unsigned kDeepest = 4;
+    const auto* instruction = llvm::dyn_cast<Instruction>(value);
+    if (instruction == nullptr || instruction->getParent() != place.getParent() ||
+        instruction->comesBefore(&place)) {
+        return true;
+    }
+    if (instruction == &place || depth > kDeepest || llvm::isa<llvm::PHINode>(instruction) ||
+        instruction->mayReadFromMemory() || !llvm::isSafeToSpeculativelyExecute(instruction)) {
+        return false;
+    }
+    return std::all_of(instruction->op_begin(), instruction->op_end(), [&](const llvm::Use& use) {
+        return may_move_up(use.get(), place, depth + 1);
     });
 }
 
-/// Selects with the condition of `first` that can stand beside it.
+void move_up(llvm::Value* value, Instruction& place) {
+    auto* instruction = llvm::dyn_cast<Instruction>(value);
+    if (instruction == nullptr || instruction->getParent() != place.getParent() ||
+        instruction->comesBefore(&place)) {
+        return;
+    }
+    for (llvm::Value* operand : instruction->operand_values()) move_up(operand, place);
+    instruction->moveBefore(&place);
+}
+
+/// Selects with the condition of `first`, moved to stand in front of it one behind the other.
 std::vector<SelectInst*> group_of(SelectInst& first) {
     std::vector<SelectInst*> group = {&first};
     for (Instruction* next = first.getNextNode(); next != nullptr; next = next->getNextNode()) {
         auto* select = llvm::dyn_cast<SelectInst>(next);
         if (select == nullptr || select->getCondition() != first.getCondition()) continue;
-        if (may_move_up(*select, first)) group.push_back(select);
+        // What one of the group gives may not be needed for another one.
+        const bool depends = std::any_of(
+            select->op_begin(), select->op_end(),
+            [&](const llvm::Use& use) { return !may_move_up(use.get(), *group.front()); });
+        if (depends) continue;
+        group.push_back(select);
     }
+    for (SelectInst* select : group) {
+        if (select == &first) continue;
+        for (llvm::Value* operand : select->operand_values()) move_up(operand, first);
+    }
+    // Behind all that they need, the first one included.
     for (SelectInst* select : group) {
         if (select != &first) select->moveBefore(&first);
     }

@@ -41,4 +41,7 @@ void split_conditions(llvm::Function& function);
 /// Each select becomes a branch, with what only one value needs on its way.
 void expand_selects(llvm::Function& function);
 
+/// Addresses and loads stand next to their only use.
+void place_near_use(llvm::Function& function);
+
 }  // namespace toolchain::ir

@@ -52,6 +52,7 @@ void prepare(llvm::Module& module) {
         run("choose_results", choose_results);
         run("split_conditions", split_conditions);
         run("expand_selects", expand_selects);
+        run("place_near_use", place_near_use);
     }
 }
 

@@ -73,6 +73,7 @@ codegen::Function Selector::run() {
             std::stoi(function_.getFnAttribute("interrupt").getValueAsString().str());
     }
     result_.address_taken = is_address_taken(function_);
+    result_.alignment = static_cast<uint32_t>(function_.getAlign().valueOrOne().value());
     freezes_ = std::any_of(inst_begin(function_), inst_end(function_), [](const auto& instruction) {
         return llvm::isa<llvm::FreezeInst>(instruction);
     });
@@ -183,7 +184,8 @@ Bytes Selector::select_variable(const llvm::AllocaInst& variable) {
     }
     const auto symbol =
         out_.intern(fmt::format("{}@frame.{}", function_.getName().str(), result_.frame.size()));
-    result_.frame.push_back({symbol, static_cast<uint32_t>(size->getFixedValue())});
+    result_.frame.push_back({symbol, static_cast<uint32_t>(size->getFixedValue()),
+                             static_cast<uint32_t>(variable.getAlign().value())});
     return builder_.address(symbol, 0);
 }
 

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "toolchain/ir/analyses.hpp"
+#include "toolchain/ir/exit_count.hpp"
 #include "toolchain/ir/passes.hpp"
 
 namespace toolchain::ir {
@@ -46,6 +47,7 @@ public:
     Stepper(Analyses& analyses, llvm::Loop& loop, const llvm::DataLayout& layout)
         : loops_(analyses.loops()),
           evolution_(analyses.evolution()),
+          costs_(analyses.get<llvm::TargetIRAnalysis>()),
           loop_(loop),
           expander_(evolution_, layout, "step") {
         expander_.disableCanonicalMode();
@@ -125,7 +127,7 @@ private:
     }
 
     /// Is the value used for nothing but members, its own next value and the end of the loop?
-    [[nodiscard]] bool serves_members(const llvm::Value& value, unsigned depth = 0) const {
+    [[nodiscard]] bool serves_members(const llvm::Value& value, unsigned depth = 0) {
         constexpr unsigned kDeepest = 6;
         if (depth > kDeepest) return false;
         return std::all_of(value.user_begin(), value.user_end(), [&](const llvm::User* user) {
@@ -147,13 +149,14 @@ private:
         });
     }
 
-    [[nodiscard]] bool counts(const llvm::BasicBlock& exit) const {
-        return !llvm::isa<llvm::SCEVCouldNotCompute>(
-            evolution_.getExitCount(&loop_, const_cast<llvm::BasicBlock*>(&exit)));
+    /// Will count_down() free the counter of that comparison?
+    [[nodiscard]] bool counts(const llvm::BasicBlock& exit) {
+        return cheap_exit_count(evolution_, costs_, expander_, loop_,
+                                const_cast<llvm::BasicBlock&>(exit)) != nullptr;
     }
 
     /// Are all counters that the value is computed from freed?
-    [[nodiscard]] bool frees_counters(const llvm::Value& value, unsigned depth = 0) const {
+    [[nodiscard]] bool frees_counters(const llvm::Value& value, unsigned depth = 0) {
         const auto* instruction = llvm::dyn_cast<Instruction>(&value);
         if (instruction == nullptr || !loop_.contains(instruction)) return true;
         if (llvm::isa<llvm::PHINode>(instruction)) {
@@ -232,6 +235,7 @@ private:
 
     llvm::LoopInfo& loops_;
     llvm::ScalarEvolution& evolution_;
+    llvm::TargetTransformInfo& costs_;
     llvm::Loop& loop_;
     llvm::SCEVExpander expander_;
     std::vector<Group> groups_;

@@ -3,13 +3,16 @@
 // Guide        docs/guides/compiling.md
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "toolchain/driver/outputs.hpp"
 #include "toolchain/driver/report.hpp"
+#include "toolchain/driver/work_folder.hpp"
 #include "tools/i85cc/options.hpp"
 
 namespace {
@@ -38,9 +41,25 @@ void run(const i85cc::Options& options) {
     if (options.times) print_text(driver::times_text(result));
 }
 
+/// Lets Ctrl-C and the like remove temporary files before they end the program.
+void watch_signals() {
+    sigset_t watched;
+    sigemptyset(&watched);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&watched, signal);
+    pthread_sigmask(SIG_BLOCK, &watched, nullptr);
+    std::thread([watched] {
+        int signal = 0;
+        sigwait(&watched, &signal);
+        driver::WorkFolder::remove_all();
+        pthread_sigmask(SIG_UNBLOCK, &watched, nullptr);
+        raise(signal);
+    }).detach();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    watch_signals();
     try {
         run(i85cc::parse_options({argv + 1, argv + argc}));
         return 0;

@@ -205,7 +205,10 @@ private:
             options_.request.front_end.push_back(argument);
             return true;
         }
-        return argument == "-w" && (options_.request.front_end.push_back(argument), true);
+        if (argument == "-g") return true;  // line tables are always there
+        if (argument != "-w") return false;
+        options_.request.front_end.push_back(argument);
+        return true;
     }
 
     void check() const {

@@ -73,10 +73,41 @@ TEST(Emit, AFrameHasSlotsAndObjects) {
     EXPECT_EQ(frame.function, "f");
     EXPECT_EQ(section_size(frame), 16U);
     ASSERT_EQ(frame.items.size(), 6U);
-    EXPECT_EQ(frame.items[0].operand.symbol, "f@frame");
-    EXPECT_EQ(frame.items[2].operand.symbol, "f@args");
-    EXPECT_EQ(frame.items[4].operand.symbol, "f@frame.0");
+    EXPECT_EQ(frame.items[0].operand.symbol, "f@args");
+    EXPECT_EQ(frame.items[2].operand.symbol, "f@frame.0");
+    EXPECT_EQ(frame.items[4].operand.symbol, "f@frame");
     EXPECT_EQ(section_size(frame_section(SafeNames(module), Function{.symbol = 0}, {})), 0U);
+}
+
+// By hand: c at 0, gap up to 4, b at 4, a at 10, slots at 11.
+TEST(Emit, TheMostAlignedObjectsOfAFrameComeFirst) {
+    Module module;
+    Function function;
+    function.symbol = module.intern("f");
+    function.frame = {
+        {module.intern("a"), 1, 1}, {module.intern("b"), 6, 4}, {module.intern("c"), 3, 8}};
+    FunctionCode code;
+    code.frame_bytes = 2;
+    const FrameLayout layout = frame_layout(function, code);
+    EXPECT_EQ(layout.offsets, (std::vector<uint32_t>{0, 4, 10}));
+    EXPECT_EQ(layout.alignment, 8U);
+    EXPECT_EQ(layout.size, 13U);
+    const Section frame = frame_section(SafeNames(module), function, code);
+    EXPECT_EQ(frame.alignment, 8U);
+    EXPECT_EQ(section_size(frame), 13U);
+    EXPECT_EQ(frame.items[0].operand.symbol, "c");
+    EXPECT_EQ(frame.items[2].size, 1U);
+    EXPECT_EQ(frame.items[3].operand.symbol, "b");
+}
+
+TEST(Emit, CodeIsAlignedIfItsAddressIsTaken) {
+    Module module;
+    Function function;
+    function.symbol = module.intern("f");
+    function.alignment = 2;
+    EXPECT_EQ(code_section(module, SafeNames(module), function, {}).alignment, 1U);
+    function.address_taken = true;
+    EXPECT_EQ(code_section(module, SafeNames(module), function, {}).alignment, 2U);
 }
 
 class EmitVariable : public testing::Test {

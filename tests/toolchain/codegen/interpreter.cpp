@@ -327,8 +327,7 @@ uint64_t Interpreter::call(const std::string& name, const std::vector<uint64_t>&
 uint64_t Interpreter::variable(const std::string& name, unsigned size) const {
     const uint16_t from = address(name);
     uint64_t value = 0;
-    for (unsigned i = size; i-- > 0;)
-        value = value << 8 | memory[static_cast<uint16_t>(from + i)];
+    for (unsigned i = size; i-- > 0;) value = value << 8 | memory[static_cast<uint16_t>(from + i)];
     return value;
 }
 

@@ -117,26 +117,32 @@ define void @leaf() {
   ret void
 }
 define void @f(i16 %n) {
-  %v = alloca [4 x i8]
-  %w = alloca i16
+  %v = alloca [3 x i8], align 1
+  %w = alloca i16, align 2
+  %x = alloca i8, align 1
   store i16 %n, ptr %w
   %at = getelementptr i8, ptr %w, i16 1
   call void @other(ptr %at)
   call void @leaf()
   call void @f(i16 1)
+  call void @other(ptr %v)
+  call void @other(ptr %x)
   ret void
 }
 )");
     const Function& f = function_of(module, "f");
     EXPECT_TRUE(f.recursive);
     EXPECT_FALSE(function_of(module, "leaf").recursive);
-    EXPECT_EQ(f.stack_bytes, 6U);
+    // 3 bytes, one lost, 2 bytes, 1 byte, and one that keeps SP even.
+    EXPECT_EQ(f.stack_bytes, 8U);
     EXPECT_TRUE(f.frame.empty());
     EXPECT_FALSE(operation_of(f, Opcode::call, 0).reenters);
     EXPECT_FALSE(operation_of(f, Opcode::call, 1).reenters);
     EXPECT_TRUE(operation_of(f, Opcode::call, 2).reenters);
     EXPECT_EQ(operation_of(f, Opcode::stack_address, 0).immediate16, 4U);
     EXPECT_EQ(operation_of(f, Opcode::stack_address, 1).immediate16, 5U);
+    EXPECT_EQ(operation_of(f, Opcode::stack_address, 2).immediate16, 0U);
+    EXPECT_EQ(operation_of(f, Opcode::stack_address, 3).immediate16, 6U);
 }
 
 TEST(LowerCalls, AShortCopyTakesTheShortRoutine) {

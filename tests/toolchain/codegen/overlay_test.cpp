@@ -49,6 +49,17 @@ TEST(Overlay, FunctionsThatRecurseHaveFramesBehindEachOther) {
     EXPECT_TRUE(apart);
 }
 
+TEST(Overlay, FramesAreAligned) {
+    const Module module = module_with_calls({{1, 2}, {3}, {}, {}});
+    const CallGraph graph(module);
+    const std::vector<std::size_t> roots = {0};
+    const std::vector<uint32_t> sizes = {3, 1, 5, 2};
+    const std::vector<uint32_t> alignments = {2, 1, 4, 8};
+    const Overlay overlay = overlay_frames(graph, roots, sizes, 1, alignments);
+    EXPECT_EQ(overlay.offsets, (std::vector<uint32_t>{2, 5, 8, 8}));
+    EXPECT_EQ(overlay.end, 13U);
+}
+
 TEST(Overlay, WhatIsNotReachedTakesNothing) {
     const Module module = module_with_calls({{}, {}});
     const CallGraph graph(module);

@@ -219,6 +219,9 @@ TEST_P(RandomCalls, AgreeWithTheInterpreter) {
         options.allow_recursion = true;
         codegen_test::CompiledProgram compiled(GetParam().generator, mir, options);
         compiled.run();
+        if (compiled.compiled().stack_known) {
+            EXPECT_LE(compiled.deepest_stack(), compiled.compiled().stack_bytes);
+        }
         for (const std::string& result : program.results) {
             const auto size = static_cast<unsigned>(compiled.program().find(result)->size);
             ASSERT_EQ(compiled.variable(result, size), interpreter.variable(result, size))

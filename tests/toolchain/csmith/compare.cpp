@@ -23,6 +23,8 @@ Verdict judge(const Observation& ours, const Observation& oracle) {
             return Verdict::no_end;
         case Observation::Kind::refused:
             return Verdict::refused;
+        case Observation::Kind::too_large:
+            return Verdict::too_large;
         default:
             return Verdict::failed;
     }
@@ -45,7 +47,9 @@ bool is_sure(const Program& program, const Observation& oracle) {
     Program checked = program;
     checked.options.insert(checked.options.end(), kStopWhenUndefined.begin(),
                            kStopWhenUndefined.end());
-    return observe_subject(checked, "0").mir.kind != Observation::Kind::no_end;
+    SubjectOptions options;
+    options.level = "0";
+    return observe_subject(checked, Layer::mir, options).kind != Observation::Kind::no_end;
 }
 
 }  // namespace
@@ -63,10 +67,18 @@ Finding compare(const Program& program, const CompareOptions& options) {
     Finding worst;
     std::vector<std::string> texts;
     for (const std::string& level : options.levels) {
-        const Subject subject = observe_subject(program, level, options.meddle);
-        const Verdict verdict = judge(subject.mir, oracle);
+        SubjectOptions subject = options.subject;
+        subject.level = level;
+        const Observation ours = observe_subject(program, options.layer, subject);
+        const Verdict verdict = judge(ours, oracle);
         if (verdict == Verdict::agreed) continue;
-        texts.push_back(fmt::format("-O{} in MIR: {}", level, to_text(subject.mir)));
+        texts.push_back(fmt::format("-O{}: {}", level, to_text(ours)));
+        if (options.layer == Layer::image && verdict != Verdict::too_large &&
+            verdict != Verdict::refused) {
+            const Observation mir = observe_subject(program, Layer::mir, subject);
+            texts.back() += mir == oracle ? " (code generation: right in MIR)"
+                                          : fmt::format(" (front half: {} in MIR)", to_text(mir));
+        }
         worst.verdict = std::max(worst.verdict, verdict);
     }
     if (worst.verdict == Verdict::difference && !is_sure(program, oracle))

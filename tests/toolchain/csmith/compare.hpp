@@ -40,10 +40,12 @@ struct Finding {
 struct CompareOptions {
     std::vector<std::string> levels = {"0", "1", "2", "s"};
     std::filesystem::path keep{};  ///< programs of faults are copied here
-    Meddle meddle{};
+    Layer layer = Layer::image;    ///< what is compared first
+    SubjectOptions subject{};      ///< the level does not matter
 };
 
-/// Compares all levels for a given program. The worst verdict, with the levels that have it.
+/// Compares all levels for a given program. The worst verdict, with the levels that have it. When
+/// an image does something else, the text says whether the representation does so too.
 [[nodiscard]] Finding compare(const Program& program, const CompareOptions& options);
 
 /// generate() and compare() in a folder of its own.

@@ -79,11 +79,16 @@ int main(int argc, char** argv) {
         ->check(CLI::ExistingFile);
     app.add_option("--levels", options.levels, "of 0,1,2,s; all by default")->delimiter(',');
     app.add_option("--jobs", campaign.jobs, "processes at a time")->check(CLI::Range(1, 256));
+    bool mir = false;
+    app.add_flag("--mir", mir, "execute the representation instead of images: faster");
+    app.add_option("--search-budget", options.subject.search_budget,
+                   "for register homes, for each function; 0: the compiler's own, slow");
     app.add_option("--keep", keep, "folder for the programs of faults");
     std::vector<std::string> defines;
     app.add_option("--define,-D", defines, "NAME or NAME=VALUE, for all compilers");
     CLI11_PARSE(app, argc, argv);
     options.keep = keep;
+    if (mir) options.layer = Layer::mir;
     for (const std::string& define : defines) program.options.push_back("-D" + define);
     try {
         if (!program.source.empty()) return run_one(program, options);

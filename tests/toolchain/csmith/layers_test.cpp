@@ -67,13 +67,20 @@ uint64_t arithmetic() {
     return value;
 }
 
+Observation at_level(const Program& program, const std::string& level, Layer layer) {
+    SubjectOptions options;
+    options.level = level;
+    return observe_subject(program, layer, options);
+}
+
 class Layers : public testing::TestWithParam<std::string> {};
 
 TEST_P(Layers, ComputeTheChecksumThatZlibComputes) {
     const Written written(kArithmetic);
     const Observation expected = checksum(crc_of({arithmetic()}));
     EXPECT_EQ(observe_avr(written.program, GetParam()), expected);
-    EXPECT_EQ(observe_subject(written.program, GetParam()).mir, expected);
+    EXPECT_EQ(at_level(written.program, GetParam(), Layer::mir), expected);
+    EXPECT_EQ(at_level(written.program, GetParam(), Layer::image), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Level, Layers, testing::Values("0", "1", "2", "s"));
@@ -85,11 +92,16 @@ TEST(ObserveAvr, TellsEndlessFromRefused) {
     EXPECT_NE(refused.text.find("written.c:4"), std::string::npos) << refused.text;
 }
 
-TEST(ObserveSubject, TellsEndlessFromRefused) {
-    EXPECT_EQ(observe_subject(Written("for (;;) g_1 += 1;").program, "1").mir.kind, Kind::no_end);
-    const Observation refused = observe_subject(Written("this is not C").program, "1").mir;
-    EXPECT_EQ(refused.kind, Kind::refused);
-    EXPECT_NE(refused.text.find("written.c:4"), std::string::npos) << refused.text;
+TEST(ObserveSubject, TellsEndlessFromRefusedFromTooLarge) {
+    for (const Layer layer : {Layer::mir, Layer::image}) {
+        const Written endless("for (;;) g_1 += 1;");
+        EXPECT_EQ(at_level(endless.program, "1", layer).kind, Kind::no_end);
+        const Observation refused = at_level(Written("this is not C").program, "1", layer);
+        EXPECT_EQ(refused.kind, Kind::refused);
+        EXPECT_NE(refused.text.find("written.c:4"), std::string::npos) << refused.text;
+    }
+    const Written large("g_1 = g_3[g_1];", "static volatile uint8_t g_3[20000];");
+    EXPECT_EQ(at_level(large.program, "1", Layer::image).kind, Kind::too_large);
 }
 
 TEST(Csmith_h, OnlyOneValueWhenAskedFor) {
@@ -99,7 +111,7 @@ TEST(Csmith_h, OnlyOneValueWhenAskedFor) {
     const Observation expected =
         checksum(static_cast<uint32_t>(value) ^ static_cast<uint32_t>(value >> 32));
     EXPECT_EQ(observe_avr(written.program), expected);
-    EXPECT_EQ(observe_subject(written.program, "2").mir, expected);
+    EXPECT_EQ(at_level(written.program, "2", Layer::mir), expected);
 }
 
 TEST(Csmith_h, HidesFirstValuesFromTheOptimiser) {
@@ -108,13 +120,12 @@ TEST(Csmith_h, HidesFirstValuesFromTheOptimiser) {
     const char* body = "g_1 = g_2 * g_2;";
     const char* variable = "static uint32_t g_2 = 3;";
     const auto multiplies = [](const Program& program) {
-        bool found = false;
-        const Subject subject =
-            observe_subject(program, "2", [&](toolchain::codegen::Module& module) {
-                for (const std::string& symbol : module.symbols) found |= symbol == "__mul32";
-                if (!found) throw std::runtime_error("no multiplication");
-            });
-        return subject.mir.kind == Kind::checksum;
+        SubjectOptions options;
+        options.level = "2";
+        options.meddle_mir = [](toolchain::codegen::Module& module) {
+            if (!module.symbol_ids.contains("__mul32")) throw std::runtime_error("none");
+        };
+        return observe_subject(program, Layer::mir, options).kind == Kind::checksum;
     };
     const Written plain(body, variable);
     Written opaque(body, variable + escapes_of(fmt::format("\n{}\n", variable)));
@@ -143,17 +154,49 @@ TEST(Compare, AgreesOnAProgramWithoutFault) {
 
 TEST(Compare, ReportsAFaultOfOneLevel) {
     CompareOptions options;
+    options.layer = Layer::mir;
     options.levels = {"0", "1"};
-    options.meddle = [](toolchain::codegen::Module& module) { spoil_first(module, Opcode::add); };
+    options.subject.meddle_mir = [](toolchain::codegen::Module& module) {
+        spoil_first(module, Opcode::add);
+    };
     const Finding finding = compare(Written(kArithmetic).program, options);
     EXPECT_EQ(finding.verdict, Verdict::difference);
-    EXPECT_NE(finding.text.find("-O1 in MIR"), std::string::npos) << finding.text;
+    EXPECT_NE(finding.text.find("-O1: "), std::string::npos) << finding.text;
+}
+
+TEST(Compare, LocatesAFaultInTheFrontHalfOrInCodeGeneration) {
+    const Written written(kArithmetic);
+    CompareOptions options;
+    options.levels = {"1"};
+    options.subject.meddle_image = [](toolchain::assembly::Program& program) {
+        const auto* table = program.find("rover_crc_nibbles");
+        ASSERT_NE(table, nullptr);
+        program.image.bytes.at(table->value + 5U) ^= 1;
+    };
+    const Finding back = compare(written.program, options);
+    EXPECT_EQ(back.verdict, Verdict::difference);
+    EXPECT_NE(back.text.find("code generation: right in MIR"), std::string::npos) << back.text;
+    options.subject.meddle_mir = [](toolchain::codegen::Module& module) {
+        spoil_first(module, Opcode::add);
+    };
+    const Finding front = compare(written.program, options);
+    EXPECT_NE(front.text.find("front half: "), std::string::npos) << front.text;
+}
+
+TEST(Compare, ReportsAStoreIntoRom) {
+    CompareOptions options;
+    options.levels = {"1"};
+    const Written written("*(volatile uint8_t*)0x0100 ^= 1;");
+    const Finding finding = compare(written.program, options);
+    EXPECT_EQ(finding.verdict, Verdict::failed);
+    EXPECT_NE(finding.text.find("a store into ROM"), std::string::npos) << finding.text;
 }
 
 TEST(Compare, ReportsAProgramThatDoesNotEndAndACrash) {
     CompareOptions options;
+    options.layer = Layer::mir;
     options.levels = {"1"};
-    options.meddle = [](toolchain::codegen::Module& module) {
+    options.subject.meddle_mir = [](toolchain::codegen::Module& module) {
         for (auto& function : module.functions) {
             auto& end = function.blocks.at(0).terminator;
             end = {};
@@ -162,7 +205,7 @@ TEST(Compare, ReportsAProgramThatDoesNotEndAndACrash) {
         }
     };
     EXPECT_EQ(compare(Written(kArithmetic).program, options).verdict, Verdict::no_end);
-    options.meddle = [](toolchain::codegen::Module&) { std::abort(); };
+    options.subject.meddle_mir = [](toolchain::codegen::Module&) { std::abort(); };
     EXPECT_EQ(compare(Written(kArithmetic).program, options).verdict, Verdict::failed);
 }
 
@@ -173,8 +216,11 @@ TEST(Compare, SkipsWhatTheOracleDoesNotEnd) {
 TEST(Compare, DoubtsAProgramThatOverflows) {
     // Level 1 alone is spoiled, so the difference is there; the program is wrong as well.
     CompareOptions options;
+    options.layer = Layer::mir;
     options.levels = {"1"};
-    options.meddle = [](toolchain::codegen::Module& module) { spoil_first(module, Opcode::add); };
+    options.subject.meddle_mir = [](toolchain::codegen::Module& module) {
+        spoil_first(module, Opcode::add);
+    };
     const std::string overflow = " volatile int16_t top = INT16_MAX; top = top + 1;";
     EXPECT_EQ(compare(Written(kArithmetic + overflow).program, options).verdict, Verdict::doubtful);
 }
@@ -182,11 +228,12 @@ TEST(Compare, DoubtsAProgramThatOverflows) {
 TEST(CompareSeed, KeepsTheProgramOfAFault) {
     const WorkFolder folder;
     CompareOptions options;
+    options.layer = Layer::mir;
     options.levels = {"0"};
     options.keep = folder.path() / "kept";
     EXPECT_EQ(compare_seed(2, options).verdict, Verdict::agreed);
     EXPECT_FALSE(std::filesystem::exists(options.keep));
-    options.meddle = [](toolchain::codegen::Module& module) {
+    options.subject.meddle_mir = [](toolchain::codegen::Module& module) {
         spoil_first(module, Opcode::bit_xor);
     };
     EXPECT_EQ(compare_seed(2, options).verdict, Verdict::difference);

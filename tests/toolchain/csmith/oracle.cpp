@@ -27,6 +27,8 @@ std::string to_text(const Observation& observation) {
             return "does not end: " + observation.text;
         case Observation::Kind::refused:
             return "refused: " + observation.text;
+        case Observation::Kind::too_large:
+            return "too large: " + observation.text;
         default:
             return "failed: " + observation.text;
     }

@@ -13,9 +13,10 @@ namespace csmith_test {
 struct Observation {
     enum class Kind {
         checksum,
-        no_end,   ///< not done within the limit
-        refused,  ///< the compiler says no
-        failed,   ///< crash or other trouble
+        no_end,     ///< not done within the limit
+        refused,    ///< the compiler says no
+        too_large,  ///< it does not fit into memory
+        failed,     ///< crash or other trouble
     };
     Kind kind = Kind::failed;
     uint32_t checksum = 0;

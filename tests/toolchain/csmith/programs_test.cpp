@@ -9,13 +9,16 @@ namespace csmith_test {
 namespace {
 
 constexpr uint64_t kGroup = 10;
+constexpr uint64_t kSearchBudget = 1000;  // of register homes: a hundredth of the time
 
 class Programs : public testing::TestWithParam<uint64_t> {};
 
 TEST_P(Programs, ComputeWhatTheOracleSays) {
+    CompareOptions options;
+    options.subject.search_budget = kSearchBudget;
     const Campaign campaign{GetParam(), GetParam() + kGroup - 1, 1};
     const Summary summary =
-        run_campaign(campaign, [](uint64_t seed) { return compare_seed(seed, {}); });
+        run_campaign(campaign, [&](uint64_t seed) { return compare_seed(seed, options); });
     fmt::print("seeds {} to {}: {}\n", campaign.first, campaign.last, counts_text(summary));
     for (const auto& [seed, finding] : summary.findings) {
         EXPECT_FALSE(is_fault(finding.verdict))
@@ -25,7 +28,7 @@ TEST_P(Programs, ComputeWhatTheOracleSays) {
     EXPECT_GT(summary.count(Verdict::agreed), kGroup / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Programs, testing::Range<uint64_t>(1, 81, kGroup),
+INSTANTIATE_TEST_SUITE_P(Seeds, Programs, testing::Range<uint64_t>(1, 51, kGroup),
                          [](const auto& test) { return fmt::format("From{}", test.param); });
 
 }  // namespace

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <stdexcept>
 #include <utility>
 
+#include "host_sim/cpu/flat_machine.hpp"
 #include "tests/toolchain/codegen/interpreter.hpp"
 #include "tests/toolchain/csmith/process.hpp"
 #include "toolchain/driver/driver.hpp"
@@ -17,6 +20,9 @@ namespace {
 
 constexpr unsigned kSeconds = 60;
 constexpr uint64_t kSteps = 20'000'000;
+constexpr uint64_t kStates = 4'000'000'000;  // 22 minutes at 3 MHz
+constexpr toolchain::assembly::AddressRange kRom{0x0000, 0xCFFF};
+constexpr toolchain::assembly::AddressRange kRam{0xD000, 0xFFFF};
 
 using toolchain::ir::Optimisation;
 
@@ -27,11 +33,14 @@ Optimisation level_of(const std::string& level) {
     return Optimisation::size;
 }
 
-toolchain::driver::Request request_for(const Program& program, const std::string& level,
+toolchain::driver::Request request_for(const Program& program, const SubjectOptions& options,
                                        std::string& messages) {
     toolchain::driver::Request request;
     request.sources = {{program.source.string()}};
-    request.level = level_of(level);
+    request.level = level_of(options.level);
+    request.search_budget = options.search_budget;
+    request.rom = kRom;
+    request.ram = kRam;
     request.front_end = {"-std=gnu99"};
     for (const std::string& option : include_options()) request.front_end.push_back(option);
     for (const std::string& option : program.options) request.front_end.push_back(option);
@@ -53,14 +62,48 @@ std::string run_mir(const toolchain::codegen::Module& module) {
     return fmt::format("checksum {:08X}", machine.variable("rover_checksum", 4));
 }
 
+std::string run_image(const toolchain::assembly::Program& program) {
+    host_sim::FlatMachine machine(host_sim::InstructionSet::documented);
+    for (std::size_t i = 0; i < program.image.bytes.size(); ++i) {
+        // RAM is never clear when power comes on.
+        machine.memory.bytes.at(i) = program.image.present.test(i) ? program.image.bytes[i] : 0xA5;
+    }
+    const auto loaded = machine.memory.bytes;
+    switch (machine.run(kStates)) {
+        case host_sim::RunEnd::halted:
+            break;
+        case host_sim::RunEnd::time_limit:
+            return fmt::format("no-end {} T-states", kStates);
+        default:
+            return fmt::format("failed undefined instruction at {:04X}H", machine.cpu.pc);
+    }
+    if (!std::equal(loaded.begin(), loaded.begin() + kRom.last + 1, machine.memory.bytes.begin()))
+        return "failed a store into ROM";
+    const auto number = [&](const char* name, unsigned size) {
+        const toolchain::assembly::Symbol* symbol = program.find(name);
+        if (symbol == nullptr) throw std::runtime_error(fmt::format("no symbol {}", name));
+        uint32_t value = 0;
+        for (unsigned i = size; i-- > 0;)
+            value = value << 8 | machine.memory.bytes.at((symbol->value + i) & 0xFFFF);
+        return value;
+    };
+    if (number("rover_done", 1) != 1) return "failed halted without a checksum";
+    return fmt::format("checksum {:08X}", number("rover_checksum", 4));
+}
+
 /// "KIND TEXT" as an observation.
 Observation parse(std::string_view line) {
     using Kind = Observation::Kind;
-    for (const auto& [word, kind] :
-         {std::pair{"no-end ", Kind::no_end}, std::pair{"refused ", Kind::refused},
-          std::pair{"failed ", Kind::failed}, std::pair{"checksum ", Kind::checksum}}) {
+    static constexpr std::array<std::pair<std::string_view, Kind>, 5> kWords = {{
+        {"checksum ", Kind::checksum},
+        {"no-end ", Kind::no_end},
+        {"refused ", Kind::refused},
+        {"too-large ", Kind::too_large},
+        {"failed ", Kind::failed},
+    }};
+    for (const auto& [word, kind] : kWords) {
         if (!line.starts_with(word)) continue;
-        line.remove_prefix(std::string_view(word).size());
+        line.remove_prefix(word.size());
         Observation result{kind, 0, std::string(line)};
         if (kind == Kind::checksum) {
             std::from_chars(line.data(), line.data() + line.size(), result.checksum, 16);
@@ -74,32 +117,42 @@ Observation parse(std::string_view line) {
 /// The compiler's own mistakes are no refusals.
 std::string text_of(const toolchain::driver::Failed& error) {
     const std::string_view text = error.what();
-    const bool internal = text.find("internal error") != std::string_view::npos;
-    return fmt::format("{} {}", internal ? "failed" : "refused", text);
+    if (text.find("internal error") != std::string_view::npos)
+        return fmt::format("failed {}", text);
+    const bool full = text.find(" bytes needed, ") != std::string_view::npos;
+    return fmt::format("{} {}", full ? "too-large" : "refused", text);
+}
+
+std::string compile_and_run(const toolchain::driver::Request& request, Layer layer,
+                            const SubjectOptions& options) {
+    if (layer == Layer::mir) {
+        auto module = toolchain::driver::compile_to_mir(request);
+        if (options.meddle_mir) options.meddle_mir(module);
+        return run_mir(module);
+    }
+    toolchain::assembly::Program image = toolchain::driver::compile_program(request).program;
+    if (options.meddle_image) options.meddle_image(image);
+    return run_image(image);
 }
 
 }  // namespace
 
-Subject observe_subject(const Program& program, const std::string& level, const Meddle& meddle) {
+Observation observe_subject(const Program& program, Layer layer, const SubjectOptions& options) {
     const Ran ran = run_apart(
         [&](const Say& say) {
             std::string messages;
             try {
-                auto module =
-                    toolchain::driver::compile_to_mir(request_for(program, level, messages));
-                if (meddle) meddle(module);
-                say(run_mir(module));
+                say(compile_and_run(request_for(program, options, messages), layer, options));
             } catch (const toolchain::driver::Failed& error) {
                 say(text_of(error) + "\n" + messages);
             }
         },
         kSeconds);
-    Subject result{parse(ran.text)};
     if (ran.end == Ran::End::crashed)
-        result.mir = {Observation::Kind::failed, 0, fmt::format("signal {}", ran.status)};
+        return {Observation::Kind::failed, 0, fmt::format("signal {}", ran.status)};
     if (ran.end == Ran::End::out_of_time)
-        result.mir = {Observation::Kind::failed, 0, fmt::format("more than {} s", kSeconds)};
-    return result;
+        return {Observation::Kind::failed, 0, fmt::format("more than {} s", kSeconds)};
+    return parse(ran.text);
 }
 
 }  // namespace csmith_test

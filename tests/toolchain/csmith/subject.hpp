@@ -1,28 +1,33 @@
-// subject.hpp - what a C program computes according to our compiler, seen at two places: in the
-// back end's representation, executed by an interpreter, and (when there is code generation) as an
-// image on the simulated 8085. A difference in the first is a fault of the front half, one only in
-// the second a fault of code generation. Depends on   toolchain/ir,
-// tests/toolchain/codegen/interpreter.hpp, process.hpp.
+// subject.hpp - what a C program computes according to our compiler, at one of two places: as an
+// image on the simulated 8085, or in the back end's representation, executed by an interpreter.
+// A difference in both is a fault of the front half, one only in the image a fault of code
+// generation.
+// Depends on   toolchain/driver, tests/toolchain/codegen/interpreter.hpp, host_sim/cpu,
+// process.hpp.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
 #include "tests/toolchain/csmith/oracle.hpp"
+#include "toolchain/asm/program.hpp"
 #include "toolchain/codegen/mir.hpp"
 
 namespace csmith_test {
 
-/// What each layer computes.
-struct Subject {
-    Observation mir{};
+enum class Layer : uint8_t { image, mir };
+
+struct SubjectOptions {
+    std::string level = "s";     ///< "0", "1", "2" or "s"
+    uint64_t search_budget = 0;  ///< as in driver::Request
+    /// Change what is executed; tests put faults in with them.
+    std::function<void(toolchain::codegen::Module&)> meddle_mir{};
+    std::function<void(toolchain::assembly::Program&)> meddle_image{};
 };
 
-/// Changes the representation before it is executed; tests put faults in with it.
-using Meddle = std::function<void(toolchain::codegen::Module&)>;
-
-/// Compiles and runs in a process of its own. @param level  "0", "1", "2" or "s"
-[[nodiscard]] Subject observe_subject(const Program& program, const std::string& level,
-                                      const Meddle& meddle = {});
+/// Compiles and runs in a process of its own.
+[[nodiscard]] Observation observe_subject(const Program& program, Layer layer,
+                                          const SubjectOptions& options);
 
 }  // namespace csmith_test

@@ -140,6 +140,21 @@ TEST(Driver, ConstructorsRunBeforeMain) {
     }
 }
 
+TEST(Driver, ConstructorsOfAllSourcesRunByPriority) {
+    const std::string part =
+        "extern int result;\n"
+        "inline int step(int k) { volatile int x = k; return x; }\n"
+        "struct Part { explicit Part(int k) { result = result * 10 + step(k); } };\n";
+    for (const Optimisation level : kLevels) {
+        Request request = request_for(
+            part + "Part one(1);\nPart two(2);\nint result = 0;\nint main() {}", "a.cpp", level);
+        request.sources.push_back(
+            {"b.cpp", part + "Part three(3);\nPart four __attribute__((init_priority(200)))(4);"});
+        request.keep = {"result"};
+        EXPECT_EQ(result_of(request), 4123U);
+    }
+}
+
 TEST(Driver, ConstantInitialisationIsNoConstructor) {
     Request request = request_for(
         "struct A { int n; constexpr A(int a) : n(a) {} };\n"
@@ -214,6 +229,38 @@ TEST(Driver, WarningsGoOn) {
     request.messages = [&](std::string_view text) { messages += text; };
     EXPECT_EQ(functions_of(compile_to_mir(request)), std::set<std::string>{"main"});
     EXPECT_THAT(messages, HasSubstr("unused"));
+}
+
+TEST(Driver, SourcesMayBeLlvms) {
+    const std::string layout =
+        "target datalayout = \"e-m:e-p:16:16-i32:16-i64:16-f32:16-f64:16-"
+        "a:8-n8:16-S16\"\n";
+    const Request request = request_for(layout + "define i16 @main() { ret i16 77 }", "m.ll");
+    EXPECT_THAT(compile_to_text(request, Text::mir), HasSubstr("return [4D 00]"));
+}
+
+TEST(Driver, LlvmsSourcesOfAnotherTargetAreRefused) {
+    const Request request = request_for(
+        "target triple = \"x86_64-pc-linux-gnu\"\ndefine i32 @main() { ret i32 7 }", "m.ll");
+    EXPECT_EQ(failure_of([&] { (void)compile_to_mir(request); }),
+              "m.ll: made for another target ('x86_64-pc-linux-gnu'): compile it with "
+              "--target=msp430-none-elf");
+    const Request broken = request_for("define i16 @main() {\n  ret i16\n}\n", "m.ll");
+    EXPECT_THAT(failure_of([&] { (void)compile_to_mir(broken); }),
+                testing::StartsWith("m.ll:3: not readable for LLVM 19: "));
+}
+
+TEST(Driver, NamesForPeopleAreCpps) {
+    Request request = request_for(R"(
+        template <class T> concept Small = sizeof(T) <= 2;
+        template <Small T> __attribute__((noinline)) T step(T a) { return a * 3; }
+        volatile int v;
+        int main() { return step(v); })");
+    const Result result = compile_program(request);
+    std::string titles;
+    for (const auto& placed : result.program.sections) titles += placed.section.title + "\n";
+    EXPECT_THAT(titles, HasSubstr("step"));
+    EXPECT_THAT(titles, Not(HasSubstr("_Z")));
 }
 
 TEST(Driver, NoSourceIsAMistake) {

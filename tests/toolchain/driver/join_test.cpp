@@ -108,6 +108,12 @@ TEST_F(Join, KeepsByEveryFormOfAName) {
               "'stop' is to be kept, but no source defines it: check the name");
 }
 
+TEST_F(Join, WhatIsKeptIsVisibleThoughStatic) {
+    const auto modules = parse_all({"define internal void @step() { ret void }"});
+    EXPECT_EQ(find_kept(modules, {"step"}), std::set<std::string>{"step"});
+    EXPECT_TRUE(modules[0]->getFunction("step")->hasExternalLinkage());
+}
+
 TEST_F(Join, MangledMainIsMain) {
     const ModulePointer module = parse("define i16 @_Z4mainv() { ret i16 0 }");
     settle_main(*module);
@@ -206,6 +212,12 @@ TEST_F(Join, RefusesCallsThatDoNotFit) {
 TEST_F(Join, RefusesAssemblyOutsideOfFunctions) {
     EXPECT_EQ(check("module asm \"nop\""),
               "a.c: assembly outside of functions is not supported: use i85.h");
+}
+
+TEST_F(Join, RefusesSections) {
+    EXPECT_EQ(check("@v = global i8 0, section \".noinit\""),
+              "a.c: 'v' is to be in section '.noinit', but sections have no names here: leave the "
+              "attribute out");
 }
 
 TEST_F(Join, NamesWhatIsNotDefinedAndWhy) {

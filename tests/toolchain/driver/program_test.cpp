@@ -222,7 +222,11 @@ const std::vector<Feature> kFeatures = {
             if (n > 0) walk(n - 1, &own[1]);
             *sum += own[0] + own[1] * 2 + own[2]; return own[1]; }
         int result;
-        int main(void) { int sum = 0; walk(4, &sum); result = fib(seed) + even(seed) * 1000 + sum; })",
+        int main(void) {
+            int sum = 0;
+            walk(4, &sum);
+            result = fib(seed) + even(seed) * 1000 + sum;
+        })",
      [] {
          struct Walk {
              static int run(int n, int* sum) {
@@ -261,6 +265,51 @@ const std::vector<Feature> kFeatures = {
                                       static_cast<uint64_t>(small >> 2)) &
                 0xFFFF;
      }()},
+    // A pointer to a member function keeps in its lowest bit whether it is a virtual one.
+    {"MemberPointers", "f.cpp", R"(
+        struct A {
+            int n;
+            explicit A(int k) : n(k) {}
+            int sum(int a) { return n + a; }
+            int product(int a) { return n * a; }
+            int difference(int a) { return n - a; }
+            virtual int twice(int a) { return 2 * a; }
+        };
+        struct B : A { using A::A; int twice(int a) override { return 20 * a; } };
+        int (A::*const pointers[])(int) = {&A::sum, &A::product, &A::difference, &A::twice};
+        B object(7);
+        A* volatile target = &object;
+        volatile unsigned char turns = 4;
+        int result;
+        int main() {
+            for (unsigned char i = 0; i < turns; i++)
+                result = result * 10 + (target->*pointers[i])(3);
+        })",
+     ((10 * 10 + 21) * 10 + 4) * 10 + 60},
+    // clang takes an int to be aligned to 2, and may reckon with it.
+    {"Alignment", "f.cpp", R"(
+        #include <stdint.h>
+        char first = 1;
+        int word = 5;
+        char third = 2;
+        alignas(64) char table[10] = {3};
+        char last;
+        __attribute__((noinline)) uintptr_t address(volatile void* p) {
+            volatile uintptr_t a = reinterpret_cast<uintptr_t>(p);
+            return a;
+        }
+        __attribute__((noinline)) unsigned locals(unsigned char n) {
+            volatile char odd[3] = {1, 2, 3};
+            volatile int even = n;
+            alignas(16) volatile char wide[5] = {};
+            return (address(&even) & 1) + (address(wide) & 15) + even + odd[n];
+        }
+        int result;
+        int main() {
+            result = (address(&word) & 1) * 1000 + (address(table) & 63) * 10 + locals(2);
+            result += first + third + table[0] + last;
+        })",
+     2 + 3 + 1 + 2 + 3},
     {"Templates", "f.cpp", R"(
         template <class T, int N> struct Ring { T items[N]; unsigned char at = 0;
             constexpr void push(T item) { items[at] = item; at = (at + 1) % N; }

@@ -32,4 +32,13 @@ TEST(WorkFolder, IsForItsOwnerOnly) {
     EXPECT_EQ(fs::status(folder.path()).permissions(), fs::perms::owner_all);
 }
 
+TEST(WorkFolder, AllCanBeRemovedAtOnce) {
+    const toolchain::driver::WorkFolder one;
+    const toolchain::driver::WorkFolder other;
+    std::ofstream(one.path() / "file") << "text";
+    toolchain::driver::WorkFolder::remove_all();
+    EXPECT_FALSE(fs::exists(one.path()));
+    EXPECT_FALSE(fs::exists(other.path()));
+}
+
 }  // namespace

@@ -93,6 +93,32 @@ out:
     for (unsigned n = 0; n < 256; ++n) ASSERT_EQ(interpreter.call("f", {n}), 3 * n) << n;
 }
 
+TEST(CountDown, PointersWithAKnownEndNeedNoCounter) {
+    const Passed passed(R"(
+@a = global [1200 x i8] zeroinitializer
+define void @f() {
+entry:
+  br label %loop
+loop:
+  %i = phi i16 [ 0, %entry ], [ %next, %loop ]
+  %p = phi ptr [ @a, %entry ], [ %q, %loop ]
+  store i8 7, ptr %p
+  %q = getelementptr i8, ptr %p, i16 4
+  %next = add i16 %i, 1
+  %more = icmp ult i16 %next, 300
+  br i1 %more, label %loop, label %out
+out:
+  ret void
+})",
+                        count_down);
+    EXPECT_EQ(passed.count("phi i"), 0U) << passed.text;
+    Interpreter interpreter(passed.mir);
+    interpreter.call("f");
+    for (unsigned i = 0; i < 1210; ++i) {
+        ASSERT_EQ(interpreter.memory[0x8000 + i], i % 4 == 0 && i < 1200 ? 7 : 0) << i;
+    }
+}
+
 TEST(CountDown, UsedCountersStay) {
     const Passed passed(R"(
 define i16 @f(i16 %n) {

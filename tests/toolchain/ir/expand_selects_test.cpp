@@ -47,6 +47,24 @@ define i16 @f(i16 %a, i16 %b) {
     EXPECT_EQ(interpreter.call("f", {10, 3}), 7U);
 }
 
+TEST(ExpandSelects, WorkBetweenTwoSelectsMovesWithTheSecond) {
+    const Passed passed(R"(
+define i16 @f(i16 %a, i16 %b) {
+  %c = icmp ult i16 %a, %b
+  %x = select i1 %c, i16 %a, i16 7
+  %d = sub i16 %a, %b
+  %e = xor i16 %d, 1
+  %y = select i1 %c, i16 %e, i16 %b
+  %r = add i16 %x, %y
+  ret i16 %r
+})",
+                        expand_selects);
+    EXPECT_EQ(passed.count("br i1"), 1U) << passed.text;
+    Interpreter interpreter(passed.mir);
+    EXPECT_EQ(interpreter.call("f", {4, 7}), (4U + 0xFFFCU) & 0xFFFFU);
+    EXPECT_EQ(interpreter.call("f", {7, 4}), 11U);
+}
+
 TEST(ExpandSelects, WorkForOneValueIsDoneOnItsWay) {
     const Passed passed(R"(
 define i16 @f(i16 %a, ptr %p) {

@@ -96,6 +96,32 @@ out:
     EXPECT_EQ(interpreter.variable("a", 8), 0x0003000200010000U);
 }
 
+TEST(StepPointers, ComparisonsThatCannotCountKeepTheIndex) {
+    // The number of rounds would take a division: the counter stays, so it can be the index too.
+    const Passed passed(R"(
+@a = global [64 x i8] zeroinitializer
+define void @f(i16 %step) {
+entry:
+  br label %loop
+loop:
+  %i = phi i16 [ 0, %entry ], [ %next, %loop ]
+  %p = getelementptr i8, ptr @a, i16 %i
+  store i8 1, ptr %p
+  %next = add nuw nsw i16 %i, %step
+  %more = icmp ult i16 %next, 64
+  br i1 %more, label %loop, label %out
+out:
+  ret void
+})",
+                        step_pointers);
+    EXPECT_EQ(passed.count("phi ptr"), 0U) << passed.text;
+    Interpreter interpreter(passed.mir);
+    interpreter.call("f", {7});
+    for (unsigned i = 0; i < 64; ++i) {
+        ASSERT_EQ(interpreter.memory[0x8000 + i], i % 7 == 0 ? 1 : 0) << i;
+    }
+}
+
 TEST(StepPointers, ColumnsOfAMatrixStepByRows) {
     // Sum of m[k][2] of a 3 x 4 matrix of bytes 0, 1, 2 ...: 2 + 6 + 10.
     const Passed passed(R"(

@@ -73,7 +73,7 @@ TEST(Options, TakeValuesBehindASpaceOrAnEqualsSign) {
 TEST(Options, PassOnWhatIsForClang) {
     const Options options = parse_options({"-I", "inc", "-Iother", "-DA=1", "-U", "B", "-include",
                                            "pre.h", "-std=c++20", "-Wall", "-fshort-enums", "-w",
-                                           "-pedantic", "-o", "a.hex", "a.c"});
+                                           "-g", "-pedantic", "-o", "a.hex", "a.c"});
     EXPECT_THAT(options.request.front_end,
                 ElementsAre("-I", "inc", "-Iother", "-DA=1", "-U", "B", "-include", "pre.h",
                             "-std=c++20", "-Wall", "-fshort-enums", "-w", "-pedantic"));

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -353,6 +355,50 @@ TEST_F(Program, ExplainsItself) {
     EXPECT_THAT(version.messages, testing::MatchesRegex("i85cc [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
+/// The text of the first block of that kind in the guide.
+std::string block_of_the_guide(const std::string& kind) {
+    std::ifstream file(ROVER_SOURCE_DIR "/docs/guides/compiling.md");
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    const std::string fence = "\n\n```" + kind + "\n";
+    const std::size_t start = page.find(fence) + fence.size();
+    return page.substr(start, page.find("```", start) - start);
+}
+
+TEST_F(Program, TheGuidesExampleWorks) {
+    std::ofstream(path() / "squares.c") << block_of_the_guide("c");
+    const toolchain::driver::WorkFolder logs;
+    std::istringstream lines(block_of_the_guide(""));
+    std::string said;
+    for (std::string line; std::getline(lines, line);) {
+        ASSERT_EQ(line.find("build/bin/"), 0U) << line;
+        line.replace(0, std::string("build/bin").size(), fs::path(I85CC_PROGRAM).parent_path());
+        const std::vector<Command> commands = {
+            {{"env", "-C", path().string(), "sh", "-c", line}, logs.path() / "log"}};
+        const Outcome outcome = toolchain::driver::run_all(commands, 1).at(0);
+        EXPECT_EQ(outcome.exit_code, 0) << line << outcome.messages;
+        said = outcome.messages;
+    }
+    // 385 = 1 + 4 + ... + 100 = 0181H, the low byte first.
+    EXPECT_THAT(said, HasSubstr("dump          result: 2 bytes"));
+    EXPECT_THAT(said, HasSubstr(" 81 01"));
+}
+
+TEST_F(Program, SurvivesSourcesThatAreNone) {
+    std::ofstream(path() / "empty.c");
+    std::ofstream(path() / "zeros.cpp") << std::string(5000, '\0');
+    std::ofstream(path() / "noise.c") << "\xff\xfe{{{((\\\n#include \"noise.c\"\n";
+    std::ofstream(path() / "noise.bc") << "BC\xC0\xDE garbage";
+    std::ofstream(path() / "empty.ll");
+    const std::set<std::string> before = names_in(path());
+    for (const char* source : {"empty.c", "zeros.cpp", "noise.c", "noise.bc", "empty.ll"}) {
+        const Outcome outcome = run({"-o", "out.hex", source});
+        EXPECT_EQ(outcome.exit_code, 1) << source;
+        EXPECT_THAT(outcome.messages, HasSubstr("i85cc: ")) << source;
+        EXPECT_THAT(outcome.messages, testing::Not(HasSubstr("internal error"))) << source;
+    }
+    EXPECT_EQ(names_in(path()), before);
+}
+
 TEST_F(Program, PrintsStagesOrWritesThem) {
     const Outcome printed = run({"--emit=mir", "a.c"});
     EXPECT_EQ(printed.exit_code, 0);
@@ -360,6 +406,23 @@ TEST_F(Program, PrintsStagesOrWritesThem) {
     EXPECT_EQ(run({"--emit=mir", "-o", "a.mir", "a.c"}).messages, "");
     std::ifstream file(path() / "a.mir");
     EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), printed.messages);
+}
+
+TEST_F(Program, LeavesNoTemporaryFilesWhenItIsEnded) {
+    const fs::path temporary = path() / "tmp";
+    fs::create_directory(temporary);
+    std::ofstream(path() / "clang") << "#!/bin/sh\nexec sleep 3\n";
+    fs::permissions(path() / "clang", fs::perms::owner_all);
+    const std::string script = std::string("exec 2>/dev/null; ") + I85CC_PROGRAM +
+                               " --emit=mir a.c & for i in $(seq 600); do "
+                               "test -n \"$(ls tmp)\" && break; sleep 0.05; done; "
+                               "ls tmp | wc -l; kill -TERM $!; wait $!; echo $?; ls tmp | wc -l";
+    const toolchain::driver::WorkFolder logs;
+    const std::vector<Command> commands = {
+        {{"env", "-C", path().string(), "TMPDIR=" + temporary.string(), "I85CC_CLANG=./clang", "sh",
+          "-c", script},
+         logs.path() / "log"}};
+    EXPECT_EQ(toolchain::driver::run_all(commands, 1).at(0).messages, "1\n143\n0\n");
 }
 
 TEST_F(Program, LeavesNoTemporaryFiles) {
