@@ -149,6 +149,7 @@ private:
     void load_from_slot(Register which, ByteId byte);
     void load_word_from_slot(Pair pair, ByteId low, ByteId high);
     void load_bytes(Pair pair, ByteId low, ByteId high);
+    void exchange_halves(Pair pair);
     [[nodiscard]] bool free_now(Register which) const;
     [[nodiscard]] bool locked(Register which) const { return (locks & set_of(which)) != 0; }
     [[nodiscard]] bool locked(Pair pair) const { return (locks & set_of(pair)) != 0; }

@@ -267,14 +267,16 @@ void Coder::load(Register which, ByteId byte) {
 bool Coder::load_near(Pair pair, const Base& wanted) {
     const Base have = sum_in(pair);
     if (!have.same_base(wanted) || locked(pair)) return false;
-    const int32_t distance = static_cast<int16_t>(wanted.delta - have.delta);
+    int32_t distance = static_cast<int16_t>(wanted.delta - have.delta);
     if (std::abs(distance) > kNear) return false;
     if (distance == 0 && state.sum[static_cast<unsigned>(pair)].known()) return true;
     vacate(pair);
     if (failed) return true;
-    // Vacating may have exchanged it for something else.
+    // Vacating may have exchanged it for something else, even for another step from the same base.
     const Base now = sum_in(pair);
     if (!now.same_base(wanted)) return false;
+    distance = static_cast<int16_t>(wanted.delta - now.delta);
+    if (std::abs(distance) > kNear) return false;
     for (int32_t i = 0; i < std::abs(distance); ++i) {
         emit(by_pair(distance > 0 ? op::kInx : op::kDcx, pair));
     }
@@ -304,6 +306,22 @@ void Coder::load_word_from_slot(Pair pair, ByteId low, ByteId high) {
     set(pair, low, high);
 }
 
+// All registers are needed: A waits on the stack.
+void Coder::exchange_halves(Pair pair) {
+    const ByteId low = content(high_of(pair));
+    const ByteId high = content(low_of(pair));
+    if (locked(pair)) {
+        failed = true;
+        return;
+    }
+    emit(op::kPushPsw);
+    emit(mov(Register::a, low_of(pair)));
+    emit(mov(low_of(pair), high_of(pair)));
+    emit(mov(high_of(pair), Register::a));
+    emit(op::kPopPsw);
+    set(pair, low, high);
+}
+
 void Coder::load_bytes(Pair pair, ByteId low, ByteId high) {
     const Register first = low_of(pair);
     const Register second = high_of(pair);
@@ -318,10 +336,7 @@ void Coder::load_bytes(Pair pair, ByteId low, ByteId high) {
         find(high, static_cast<RegisterSet>(~set_of(first))) == Register::flags;
     if (low_in_second && high_in_first) {  // exchanged: through a third register
         const Register between = free_register(low, set_of(pair));
-        if (between == Register::flags) {
-            failed = true;
-            return;
-        }
+        if (between == Register::flags) return exchange_halves(pair);
         emit(mov(between, second));
         set(between, low);
     }

@@ -39,6 +39,7 @@ public:
         homes.search = options_.search;
         homes.budget = options_.search_budget;
         homes.byte_cost = options_.byte_cost;
+        homes.by_chance = options_.homes_by_chance;
         homes.recipes.next_label = &next_label_;
         homes.recipes.clobbers_data = this;
         homes.recipes.clobbers_of = [](const void* self, SymbolId symbol) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 #include <set>
 #include <tuple>
 
@@ -29,6 +30,7 @@ public:
     }
 
     FunctionBlocks run() {
+        if (options_.by_chance != 0) choose_by_chance();
         if (options_.search) search();
         FunctionBlocks result;
         for (BlockId block = 0; block < blocks_.size(); ++block) {
@@ -313,8 +315,22 @@ private:
         return try_changes(region, {{&unit, Register::flags, false}}) || better;
     }
 
-    void search() {
+    void choose_by_chance() {
+        std::mt19937_64 random(options_.by_chance);
         find_units();
+        for (BlockId block = 1; block < blocks_.size(); ++block) {
+            for (const Unit& unit : units_) {
+                if (random() % 3 == 0) continue;
+                Register home = kRegisters[random() % kRegisters.size()];
+                if (unit.size == 2) home = low_of(kPairs[random() % kPairs.size()]);
+                (void)set_home(block, unit, home, random() % 2 == 0);
+            }
+        }
+        for (BlockId block = 0; block < blocks_.size(); ++block) remake(block);
+    }
+
+    void search() {
+        if (units_.empty()) find_units();
         find_regions();
         uint64_t size = 0;
         for (const Block& block : blocks_) size += block.operations.size() + 2;

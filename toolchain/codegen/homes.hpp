@@ -15,6 +15,7 @@ struct HomesOptions {
     RecipeContext recipes{};
     SymbolId jump_index = kNone;
     uint64_t budget = 0;  ///< operations to translate at most while searching; 0: by size
+    uint64_t by_chance = 0;  ///< for tests: a seed, homes that nobody looked for
 };
 
 struct FunctionBlocks {

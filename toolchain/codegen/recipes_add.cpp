@@ -262,13 +262,18 @@ void add_long_dads(Ways& ways, const Coder& start, const Operation& operation,
         } else {
             dad_word(coder, left, right, 2, second, false);
         }
+        // DAD H behind INX H would count the carry twice.
+        const bool twice = left[2] == right[2] && left[3] == right[3];
+        if (twice && !nothing) {
+            coder.lock(Pair::hl);
+            coder.load(second, right[2], right[3]);
+        }
         if (coder.failed) return;
         const uint32_t label = context.label();
         coder.emit_jump(op::kJnc, label, 0.5);
         coder.emit(by_pair(op::kInx, Pair::hl));
         coder.emit_label(label);
-        const bool twice = left[2] == right[2] && left[3] == right[3];
-        if (!nothing) coder.emit(by_pair(op::kDad, twice ? Pair::hl : second));
+        if (!nothing) coder.emit(by_pair(op::kDad, second));
         coder.set(Pair::hl, results[2], results[3]);
     };
     for (const bool swapped : {false, true}) {

@@ -74,24 +74,44 @@ void add_zero_test(std::vector<Decision>& ways, const Coder& start, const Bytes&
     }
 }
 
+/// How a comparison byte by byte treats registers between its bytes.
+enum class Keeping : uint8_t { any, all_but_a, all_but_a_saved };
+
+// A = left[i], compared with right[i], or the other way round. What A held is no operand any more,
+// or it is somewhere else too.
+void compare_step(Coder& coder, const Bytes& left, const Bytes& right, std::size_t i) {
+    const ByteId there = coder.content(Register::a);
+    if (i > 0 && there == right[i] && !coder.facts().undefined(there)) {
+        return alu_on_a(coder, alu::kCmp, left[i]);
+    }
+    if (i > 0 && there != left[i] && !occurs(left, there, i) && !occurs(right, there, i)) {
+        coder.set(Register::a, kNone);
+    }
+    coder.load(Register::a, left[i]);
+    if (!coder.failed) alu_on_a(coder, alu::kCmp, right[i]);
+}
+
 // Byte by byte, leaving at the first difference. Nothing but A may be different at the last one.
 void add_stepwise_equal(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
                         const Bytes& right, const Targets& targets) {
     constexpr double kDiffers = 0.7;
-    for (const bool locked : {false, true}) {
+    for (const Keeping keeping : {Keeping::any, Keeping::all_but_a, Keeping::all_but_a_saved}) {
+        if (keeping == Keeping::all_but_a_saved && left.size() == 1) continue;
         add_decision(ways, start, Condition::z, [&](Coder& coder) {
             if (left.size() > 1) coder.vacate(Register::a, true);
+            if (keeping == Keeping::all_but_a_saved && !coder.failed) {
+                coder.vacate(Register::a);  // an operand that is in A only
+                coder.set(Register::a, kNone);
+            }
             State first;
             for (std::size_t i = 0; i < left.size() && !coder.failed; ++i) {
-                if (locked && i > 0) coder.locks = 0x3F;
-                coder.load(Register::a, left[i]);
-                if (coder.failed) return;
-                alu_on_a(coder, alu::kCmp, right[i]);
-                if (i + 1 == left.size()) break;
+                if (keeping != Keeping::any && i > 0) coder.locks = 0x3F;
+                compare_step(coder, left, right, i);
+                if (coder.failed || i + 1 == left.size()) break;
                 if (i == 0) first = coder.state;
                 coder.emit_jump(op::kJnz, targets.label_false, kDiffers);
             }
-            if (left.size() == 1) return;
+            if (left.size() == 1 || coder.failed) return;
             coder.set(Register::a, kNone);
             coder.state.sum = {};
             for (const Register which : kRegisters) {

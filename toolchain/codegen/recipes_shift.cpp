@@ -227,7 +227,15 @@ void add_right_by_left(Ways& ways, const Coder& start, const Operation& operatio
             });
         }
     }
-    if (results.size() == 3 && !top_needed) {
+}
+
+// The same of three or four bytes, where the highest of the result is not needed.
+void add_long_right_by_left(Ways& ways, const Coder& start, const Operation& operation) {
+    const Bytes& left = operation.left;
+    const Bytes& results = operation.results;
+    const unsigned count = kByteBits - operation.immediate;
+    if (start.needed(results.back(), true)) return;
+    if (results.size() == 3) {
         add_way(ways, start, [&](Coder& coder) {
             take_hl(coder, left[0], left[1]);
             coder.lock(Pair::hl);
@@ -241,7 +249,7 @@ void add_right_by_left(Ways& ways, const Coder& start, const Operation& operatio
             coder.set(Register::a, results[1]);
         });
     }
-    if (results.size() == 4 && !top_needed) {
+    if (results.size() == 4) {
         add_way(ways, start, [&](Coder& coder) {
             coder.load(Pair::de, left[2], left[3]);
             coder.copy_out(Pair::de, true, true);
@@ -316,6 +324,7 @@ void add_shifts(Ways& ways, const Coder& start, const Operation& operation) {
     }
     add_steps_right(ways, start, operation);
     add_right_by_left(ways, start, operation);
+    add_long_right_by_left(ways, start, operation);
 }
 
 }  // namespace toolchain::codegen

@@ -95,7 +95,7 @@ assembly::Section variable_section(const Module& module, const Variable& variabl
     return section;
 }
 
-std::vector<assembly::Module> runtime_modules() {
+std::vector<assembly::Module> parse_runtime() {
     std::vector<assembly::Module> modules;
     const auto folder = std::filesystem::path(ROVER_SOURCE_DIR) / "toolchain/runtime";
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -109,18 +109,32 @@ std::vector<assembly::Module> runtime_modules() {
     return modules;
 }
 
+const std::vector<assembly::Module>& runtime_modules() {
+    static const std::vector<assembly::Module> modules = parse_runtime();
+    return modules;
+}
+
 constexpr uint16_t kReturn = 0xFFF0;  ///< where a HLT waits for the function's RET
 constexpr uint16_t kStack = 0xFFE0;
 
 }  // namespace
 
-GeneratedProgram::GeneratedProgram(const Module& lowered, const GenerateOptions& options) {
+GeneratedProgram::GeneratedProgram(const Module& lowered, GenerateOptions options,
+                                   bool ask_clobbers) {
+    std::map<SymbolId, RegisterSet> clobbers;
+    if (ask_clobbers) {
+        options.clobbers_of = [&clobbers](SymbolId symbol) {
+            const auto known = clobbers.find(symbol);
+            return known == clobbers.end() ? kAllRegisters : known->second;
+        };
+    }
     assembly::Module module;
     module.name = "program";
     std::set<std::string> defined;
     std::vector<std::string> roots;
     for (const Function& function : lowered.functions) {
         const FunctionCode code = generate(lowered, function, options);
+        clobbers[function.symbol] = code.clobbers;
         module.sections.push_back(code_section(lowered, function, code));
         roots.push_back(lowered.symbols[function.symbol]);
         if (code.frame_bytes != 0) {

@@ -16,8 +16,10 @@ namespace codegen_test {
 
 class GeneratedProgram {
 public:
+    /// @param ask_clobbers  what a call changes is known if the callee comes earlier in the module
     explicit GeneratedProgram(const toolchain::codegen::Module& lowered,
-                              const toolchain::codegen::GenerateOptions& options = {});
+                              toolchain::codegen::GenerateOptions options = {},
+                              bool ask_clobbers = false);
 
     /// Calls a function without arguments and runs it up to its return.
     /// @return T-states from its first instruction up to and with its RET
@@ -27,12 +29,10 @@ public:
     [[nodiscard]] uint64_t variable(const std::string& name, unsigned size) const;
     [[nodiscard]] uint32_t code_bytes(const std::string& function) const;
     [[nodiscard]] std::string listing() const;
+    [[nodiscard]] uint16_t address(const std::string& name) const;
 
     host_sim::FlatMachine machine{host_sim::InstructionSet::documented};
     toolchain::assembly::Program program;
-
-private:
-    [[nodiscard]] uint16_t address(const std::string& name) const;
 };
 
 }  // namespace codegen_test
