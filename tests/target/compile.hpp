@@ -13,6 +13,13 @@ namespace target_test {
 
 using toolchain::ir::Optimisation;
 
+/// Built without optimisation or with sanitizers: the compiler takes several times as long.
+#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
+inline constexpr bool kSlowBuild = true;
+#else
+inline constexpr bool kSlowBuild = false;
+#endif
+
 struct Level {
     Optimisation level = Optimisation::size;
     const char* name = "Os";

@@ -23,11 +23,7 @@ namespace {
 using host_sim::Interrupt;
 using host_sim::Pin;
 
-#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
-constexpr uint64_t kStride = 61;
-#else
-constexpr uint64_t kStride = 5;
-#endif
+constexpr uint64_t kStride = kSlowBuild ? 61 : 5;
 
 constexpr std::array kPins = {Pin::trap, Pin::rst75, Pin::rst65, Pin::rst55};
 constexpr std::array kInterrupts = {Interrupt::trap, Interrupt::rst75, Interrupt::rst65,

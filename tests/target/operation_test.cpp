@@ -153,7 +153,8 @@ std::vector<Table> tables() {
     for (const unsigned bits : {8U, 16U, 32U, 64U}) {
         for (const Level& level : kLevels) {
             // For single operations -O1, -O2 and -Os give nearly the same.
-            if (full || &level == &none || &level == &size || bits == 8) {
+            const bool typical = (&level == &size && !kSlowBuild) || bits == 8;
+            if (full || &level == &none || typical) {
                 made.push_back({level, {bits}});
             }
         }
@@ -162,7 +163,8 @@ std::vector<Table> tables() {
     for (const unsigned bits :
          {1U, 2U, 3U, 5U, 7U, 8U, 9U, 12U, 15U, 17U, 20U, 24U, 31U, 33U, 40U, 48U, 63U}) {
         made.push_back({none, {bits}, true});
-        const bool typical = bits == 1 || bits == 3 || bits == 8 || bits == 12 || bits == 40;
+        const bool typical =
+            !kSlowBuild && (bits == 1 || bits == 3 || bits == 8 || bits == 12 || bits == 40);
         if (full || typical) made.push_back({size, {bits}, true});
     }
     return made;

@@ -46,7 +46,7 @@ class Volatile : public testing::TestWithParam<Level> {};
 
 TEST_P(Volatile, AccessesAreThoseOfTheAbstractMachine) {
     const uint64_t first = number_from("ROVER_VOLATILE_SEED", 1);
-    const uint64_t programs = number_from("ROVER_VOLATILE_PROGRAMS", 8);
+    const uint64_t programs = number_from("ROVER_VOLATILE_PROGRAMS", kSlowBuild ? 3 : 8);
     std::size_t accesses = 0;
     for (uint64_t seed = first; seed < first + programs; ++seed) {
         const VolatileProgram source = make_volatile_program(seed);
