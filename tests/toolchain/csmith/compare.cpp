@@ -91,7 +91,7 @@ Finding compare(const Program& program, const CompareOptions& options) {
 
 Finding compare_seed(uint64_t seed, const CompareOptions& options) {
     const WorkFolder folder;
-    const auto program = generate(seed, folder.path());
+    const auto program = generate(seed, folder.path(), options.kind);
     if (!program) return {Verdict::skipped, "csmith finds no program in time"};
     Finding result = compare(*program, options);
     if (is_fault(result.verdict) && !options.keep.empty()) {

@@ -40,8 +40,9 @@ struct Finding {
 struct CompareOptions {
     std::vector<std::string> levels = {"0", "1", "2", "s"};
     std::filesystem::path keep{};  ///< programs of faults are copied here
-    Layer layer = Layer::image;    ///< what is compared first
-    SubjectOptions subject{};      ///< the level does not matter
+    Generator kind = Generator::csmith;
+    Layer layer = Layer::image;  ///< what is compared first
+    SubjectOptions subject{};    ///< the level does not matter
 };
 
 /// Compares all levels for a given program. The worst verdict, with the levels that have it. When

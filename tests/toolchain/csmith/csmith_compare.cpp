@@ -18,11 +18,17 @@ namespace {
 
 using namespace csmith_test;
 
+constexpr uint64_t kSometimes = 50;  // programs between two lines of a log
+
 void show(const Summary& summary, uint64_t seed, const Finding& finding, uint64_t all) {
     const bool terminal = isatty(STDERR_FILENO) != 0;
     if (finding.verdict != Verdict::agreed) {
         if (terminal) fmt::print(stderr, "\r\033[K");
         fmt::print("seed {} {}: {}\n", seed, name_of(finding.verdict), finding.text);
+        std::fflush(stdout);
+    }
+    if (!terminal && summary.done() % kSometimes == 0) {
+        fmt::print("{} of {}: {}\n", summary.done(), all, counts_text(summary));
         std::fflush(stdout);
     }
     if (terminal) fmt::print(stderr, "\r{} of {}: {} ", summary.done(), all, counts_text(summary));
@@ -79,6 +85,8 @@ int main(int argc, char** argv) {
         ->check(CLI::ExistingFile);
     app.add_option("--levels", options.levels, "of 0,1,2,s; all by default")->delimiter(',');
     app.add_option("--jobs", campaign.jobs, "processes at a time")->check(CLI::Range(1, 256));
+    bool kernels = false;
+    app.add_flag("--kernels", kernels, "loops over arrays instead of csmith's programs");
     bool mir = false;
     app.add_flag("--mir", mir, "execute the representation instead of images: faster");
     app.add_option("--search-budget", options.subject.search_budget,
@@ -88,6 +96,7 @@ int main(int argc, char** argv) {
     app.add_option("--define,-D", defines, "NAME or NAME=VALUE, for all compilers");
     CLI11_PARSE(app, argc, argv);
     options.keep = keep;
+    if (kernels) options.kind = Generator::kernels;
     if (mir) options.layer = Layer::mir;
     for (const std::string& define : defines) program.options.push_back("-D" + define);
     try {

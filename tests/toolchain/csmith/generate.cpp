@@ -8,6 +8,7 @@
 #include <regex>
 #include <stdexcept>
 
+#include "tests/toolchain/csmith/kernels.hpp"
 #include "tests/toolchain/csmith/process.hpp"
 #include "tests/toolchain/csmith/profile.hpp"
 
@@ -30,7 +31,15 @@ std::string escapes_of(const std::string& program) {
     return fmt::format("\n__attribute__((used)) void* rover_escape[] = {{{}0}};\n", table);
 }
 
-std::optional<Program> generate(uint64_t seed, const std::filesystem::path& folder) {
+std::optional<Program> generate(uint64_t seed, const std::filesystem::path& folder,
+                                Generator kind) {
+    if (kind == Generator::kernels) {
+        const Program program{std::filesystem::absolute(folder) / fmt::format("{}.c", seed),
+                              {"-DROVER_OPAQUE"}};
+        const std::string text = kernel_program(seed);
+        std::ofstream(program.source) << text << escapes_of(text);
+        return program;
+    }
     const Profile profile = profile_of(seed);
     std::ofstream(folder / "platform.info") << "integer size = 2\npointer size = 2\n";
     const auto source = std::filesystem::absolute(folder) / fmt::format("{}.c", seed);

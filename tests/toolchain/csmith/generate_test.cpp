@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 
+#include "tests/toolchain/csmith/kernels.hpp"
 #include "tests/toolchain/csmith/process.hpp"
 #include "tests/toolchain/csmith/profile.hpp"
 
@@ -89,6 +90,28 @@ TEST(Generate, KnowsThatIntHas16Bits) {
     const auto program = generate(3, folder.path());
     ASSERT_TRUE(program);
     EXPECT_EQ(text_of(folder.path() / "platform.info"), "integer size = 2\npointer size = 2\n");
+}
+
+TEST(KernelProgram, DependsOnTheSeedAloneAndIsWithoutWarnings) {
+    EXPECT_EQ(kernel_program(5), kernel_program(5));
+    EXPECT_NE(kernel_program(5), kernel_program(6));
+    const WorkFolder folder;
+    const auto program = generate(5, folder.path(), Generator::kernels);
+    ASSERT_TRUE(program);
+    // What would be undefined: shifts too far, constants too large, variables without a value.
+    std::vector<std::string> command = {"clang-19",
+                                        "--target=msp430-none-elf",
+                                        "-fsyntax-only",
+                                        "-Werror=shift-count-overflow",
+                                        "-Werror=uninitialized",
+                                        "-Werror=constant-conversion",
+                                        "-Werror=array-bounds"};
+    for (const std::string& option : include_options()) {
+        if (option != "-w") command.push_back(option);
+    }
+    command.push_back(program->source.string());
+    const Ran ran = run_program(command, 20);
+    EXPECT_EQ(ran.end, Ran::End::finished) << ran.text;
 }
 
 }  // namespace
