@@ -94,7 +94,8 @@ Finding compare_seed(uint64_t seed, const CompareOptions& options) {
     const auto program = generate(seed, folder.path(), options.kind);
     if (!program) return {Verdict::skipped, "csmith finds no program in time"};
     Finding result = compare(*program, options);
-    if (is_fault(result.verdict) && !options.keep.empty()) {
+    const bool wanted = is_fault(result.verdict) || result.verdict == Verdict::doubtful;
+    if (wanted && !options.keep.empty()) {
         std::filesystem::create_directories(options.keep);
         std::filesystem::copy(program->source, options.keep / program->source.filename(),
                               std::filesystem::copy_options::overwrite_existing);

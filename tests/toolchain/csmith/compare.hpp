@@ -39,7 +39,7 @@ struct Finding {
 
 struct CompareOptions {
     std::vector<std::string> levels = {"0", "1", "2", "s"};
-    std::filesystem::path keep{};  ///< programs of faults are copied here
+    std::filesystem::path keep{};  ///< programs of faults, and doubtful ones, are copied here
     Generator kind = Generator::csmith;
     Layer layer = Layer::image;  ///< what is compared first
     SubjectOptions subject{};    ///< the level does not matter
