@@ -84,6 +84,18 @@ TEST(RecipesAddProgram, DoublingALongCountsTheCarryOnce) {
     }
 }
 
+TEST_F(RecipesAdd, NoWayDoublesBehindTheCarry) {
+    const Bytes x = in({l, h, e, d});
+    give_back(builder.add(x, x));
+    std::size_t by_words = 0;
+    for (const Coder& way : translate(coder(), operation(), context())) {
+        const std::string text = text_of(way.items);
+        if (text.find("INX H") != std::string::npos) ++by_words;
+        EXPECT_EQ(text.find("INX H; L:; DAD H"), std::string::npos) << text;
+    }
+    EXPECT_GT(by_words, 0U);
+}
+
 TEST(RecipesAddProgram, UpperWordsMayBeTheSameAlone) {
     // Lower words 8001H and 00F0H, upper words both 1234H.
     EXPECT_EQ(run_small(0x123480F1ULL, 4, 4,
