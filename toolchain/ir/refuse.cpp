@@ -48,7 +48,7 @@ const char* objection_to_call(const llvm::CallBase& call) {
     if (const auto* assembly = llvm::dyn_cast<llvm::InlineAsm>(call.getCalledOperand())) {
         // An empty one is a barrier to the optimiser.
         if (assembly->getAsmString().empty() && call.getType()->isVoidTy()) return nullptr;
-        return "inline assembly: use the functions of i85.h, or a .s85 file";
+        return "inline assembly: use the functions of i85.h";
     }
     switch (call.getIntrinsicID()) {
         case llvm::Intrinsic::not_intrinsic:
