@@ -21,6 +21,30 @@ std::string use_text(const char* name, uint32_t used, assembly::AddressRange ran
                        range.first, range.last);
 }
 
+/// Who calls whom, a line for each function that calls.
+std::string calls_text(const Result& result) {
+    std::map<std::string, std::string> titles;
+    for (const assembly::FunctionSizes& function : assembly::function_sizes(result.program)) {
+        if (!function.title.empty()) titles[function.name] = function.title;
+    }
+    const auto title = [&](const std::string& name) {
+        const auto found = titles.find(name);
+        return found == titles.end() ? name : found->second;
+    };
+    std::string text;
+    for (const codegen::FunctionReport& function : result.compiled.functions) {
+        if (function.callees.empty()) continue;
+        text += fmt::format("{} calls", title(function.name));
+        const char* between = " ";
+        for (const std::string& callee : function.callees) {
+            text += fmt::format("{}{}", between, title(callee));
+            between = "; ";
+        }
+        text += "\n";
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string report_text(const Result& result) {
@@ -44,6 +68,7 @@ std::string report_text(const Result& result) {
                             t_text(function.t_states),
                             function.title.empty() ? function.name : function.title);
     }
+    text += calls_text(result);
     const assembly::Program& program = result.program;
     uint32_t rom = program.data_image.size;
     uint32_t ram = program.frames.size + program.stack.size;

@@ -37,8 +37,10 @@ v:      DS   1
     report.name = "f";
     report.frame_bytes = 4;
     report.stack_bytes = 2;
+    report.callees = {"g", "__mul16"};
     result.compiled.functions.push_back(report);
     const std::string text = driver::report_text(result);
+    EXPECT_THAT(text, HasSubstr("\nf calls g; __mul16\n"));
     EXPECT_THAT(text, ContainsRegex("0000H +8 +[04] +4 +2 +40  f\n"));
     EXPECT_THAT(text, HasSubstr("ROM 8 of 32768 bytes (0000H-7FFFH)\n"));
     EXPECT_THAT(text, HasSubstr("stack 6"));
