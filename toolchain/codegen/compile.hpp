@@ -25,9 +25,9 @@ public:
 
 struct CompileOptions {
     bool allow_recursion = false;
-    bool search = true;    ///< look for register homes (off at -O0)
+    bool search = true;          ///< look for register homes (off at -O0)
     uint64_t search_budget = 0;  ///< operations to translate at most for a function; 0: by size
-    double byte_cost = 1;  ///< T-states per execution that a byte of code is worth
+    double byte_cost = 1;        ///< T-states per execution that a byte of code is worth
     std::string main = "main";
     /// Called by people from outside (i85run --entry): kept, and roots beside main.
     std::vector<std::string> roots{};

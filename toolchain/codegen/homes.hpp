@@ -14,7 +14,7 @@ struct HomesOptions {
     double byte_cost = 1;
     RecipeContext recipes{};
     SymbolId jump_index = kNone;
-    uint64_t budget = 0;  ///< operations to translate at most while searching; 0: by size
+    uint64_t budget = 0;     ///< operations to translate at most while searching; 0: by size
     uint64_t by_chance = 0;  ///< for tests: a seed, homes that nobody looked for
 };
 
