@@ -21,7 +21,7 @@ beside it OUT.bin, .map, .lst, .sym. Needs clang-19 (on PATH, or I85CC_CLANG).
 
   -O0 -O1 -O2 -Os      how to optimise (default -Os: small, and hardly slower than -O2)
   --cpu=8085           documented instructions only (default)
-  --cpu=8085u          the ten undocumented instructions too
+  --cpu=8085u          the undocumented ones are allowed; no code is made with them yet
   --allow-recursion    functions may call themselves; slower, and the stack has no known bound
   --no-constructors    refuse static objects that are constructed at run time
   --separate           each source behind it is optimised as a module of its own
