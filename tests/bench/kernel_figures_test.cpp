@@ -13,6 +13,11 @@
 #include "tests/bench/kernel_page.hpp"
 
 namespace bench {
+/// Names the kernel in the list of tests.
+void PrintTo(const Kernel& kernel, std::ostream* out) {
+    *out << kernel.name;
+}
+
 namespace {
 
 const std::string kRoot = ROVER_SOURCE_DIR;

@@ -17,6 +17,7 @@ namespace target_test {
 
 /// Holds every result of two 64-bit operands.
 __extension__ using Wide = __int128;
+__extension__ using UnsignedWide = unsigned __int128;
 
 /// An integer type. Values are kept in 64 bits, zero above `bits`.
 struct IntType {

@@ -21,11 +21,23 @@ std::optional<uint64_t> divide(const std::string& operation, IntType type, uint6
     return static_cast<uint64_t>(operation == "div" ? quotient : left % right) & type.mask();
 }
 
-/// The exact result of an addition, subtraction or multiplication.
-Wide exact(const std::string& operation, Wide left, Wide right) {
-    if (operation.starts_with("add")) return left + right;
-    if (operation.starts_with("sub")) return left - right;
-    return left * right;
+/// What an addition, subtraction or multiplication gives.
+struct Exact {
+    Wide value;         ///< a product of 128 bits does not fit: the greatest Wide then
+    uint64_t low_bits;  ///< of the exact result, always right
+};
+
+Exact exact(const std::string& operation, Wide left, Wide right) {
+    const auto a = static_cast<uint64_t>(left);
+    const auto b = static_cast<uint64_t>(right);
+    if (operation.starts_with("add")) return {left + right, a + b};
+    if (operation.starts_with("sub")) return {left - right, a - b};
+    Wide product = 0;
+    if (__builtin_mul_overflow(left, right, &product)) {
+        // Only two unsigned factors of 64 bits are that large.
+        product = static_cast<Wide>(~UnsignedWide{0} >> 1);
+    }
+    return {product, a * b};
 }
 
 Wide least(IntType type) {
@@ -119,15 +131,15 @@ std::optional<uint64_t> evaluate(const std::string& operation, IntType type, uin
     }
     if (operation == "rotl") return rotate_left(type, a, b % type.bits);
     if (operation == "rotr") return rotate_left(type, a, type.bits - b % type.bits);
-    const Wide result = exact(operation, left, right);
+    const auto [result, low_bits] = exact(operation, left, right);
     if (operation.ends_with("sat")) {
         return wrapped(std::clamp(result, least(type), greatest(type)));
     }
     if (operation.ends_with("ov")) {  // the lowest bit tells of overflow
         const bool overflows = result < least(type) || result > greatest(type);
-        return wrapped(result) ^ (overflows ? 1 : 0);
+        return (low_bits & type.mask()) ^ (overflows ? 1 : 0);
     }
-    return wrapped(result);
+    return low_bits & type.mask();
 }
 
 }  // namespace target_test
