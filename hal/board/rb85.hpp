@@ -46,6 +46,8 @@ inline constexpr uint8_t kPpiControl = 3;
 
 inline constexpr uint8_t kAdc = 0x28;  ///< AD574A: A0 = address bit 0; write starts, read fetches
 
+inline constexpr uint8_t kPresence = 0x2C;  ///< 74HC244: bit w, tachometer w is plugged in
+
 inline constexpr uint8_t kMotorDrive = 0x30;      ///< 6 duty latches in hal::Wheel order
 inline constexpr uint8_t kMotorSteer = 0x36;      ///< 4 duty latches
 inline constexpr uint8_t kMotorDriveSign = 0x3A;  ///< bit w: wheel w backward

@@ -1,0 +1,78 @@
+// analog_inputs.hpp - multiplexer, sample-and-hold and converter: counts of a channel.
+// Source       AD574A, DG406 and LF398 data sheets, see the page.
+// Depends on   hal/io.hpp (kAdcAbsent), drivers of converter and 82C55A.
+// Interrupts   task and a handler share the converter: the task converts with interrupts disabled,
+//              one conversion at a time; the handler leaves the multiplexer as it was.
+// Page         docs/chips/ad574a.md
+#pragma once
+
+#include <stdint.h>
+
+#include "hal/io.hpp"
+
+namespace hal {
+
+/// @tparam Bus  with enable_interrupts() and disable_interrupts()
+/// @tparam Adc  Ad574a
+/// @tparam Ppi  I82c55a: port A has the multiplexer's address, port B has STS
+template <class Bus, class Adc, class Ppi>
+struct AnalogInputs {
+    static constexpr uint8_t kConversions = 16;
+
+    /// Sum of 16 conversions.
+    /// @param channel  multiplexer input, [0, 15]
+    /// @return   u16 Q4 counts, [0, 65520]; kAdcAbsent behind the first conversion without an end
+    /// @context  task, interrupts enabled; disables them for one conversion at a time
+    static uint16_t sum_of_16(uint8_t channel) {
+        Ppi::write_a(channel);
+        settle();
+        uint16_t high_sum = 0;
+        uint16_t low_sum = 0;
+        uint8_t high = 0;
+        uint8_t low = 0;
+        for (uint8_t left = kConversions; left != 0; --left) {
+            Bus::disable_interrupts();
+            Adc::start();
+            high_sum = static_cast<uint16_t>(high_sum + high);  // of the one before
+            low_sum = static_cast<uint16_t>(low_sum + low);
+            if (!Adc::wait()) {
+                Bus::enable_interrupts();
+                return kAdcAbsent;
+            }
+            high = Adc::high();
+            low = Adc::low();
+            Bus::enable_interrupts();
+        }
+        high_sum = static_cast<uint16_t>(high_sum + high);
+        low_sum = static_cast<uint16_t>(low_sum + low);
+        return static_cast<uint16_t>((high_sum << 4) + (low_sum >> 4));
+    }
+
+    /// One conversion of one channel. Leaves the multiplexer as it was.
+    /// @return   u16 Q4 counts as sum_of_16(), a multiple of 16; kAdcAbsent without an end
+    /// @context  interrupts disabled: a handler
+    static uint16_t convert(uint8_t channel) {
+        const uint8_t before = Ppi::read_a();
+        Ppi::write_a(channel);
+        settle();
+        Adc::start();
+        uint16_t result = kAdcAbsent;
+        if (Adc::wait()) {
+            const uint8_t high = Adc::high();
+            result = static_cast<uint16_t>(high << 8 | Adc::low());
+        }
+        Ppi::write_a(before);
+        return result;
+    }
+
+private:
+    /// With the start behind it, 40 T from the multiplexer's address to the start: it settles in 9,
+    /// the amplifier acquires in 31 (13 us together).
+    static void settle() {
+        (void)Ppi::read_b();
+        (void)Ppi::read_b();
+        (void)Ppi::read_b();
+    }
+};
+
+}  // namespace hal

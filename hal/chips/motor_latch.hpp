@@ -1,0 +1,98 @@
+// motor_latch.hpp - driver of the motor latches: duty and direction of drive and steering motors.
+// Depends on   hal/io.hpp (how many). Bus: docs/design/hal.md
+// Reset        RESET clears the latches, start-up the copies of the direction bits here.
+// Page         docs/chips/motor-latch.md
+#pragma once
+
+#include <stdint.h>
+
+#include "hal/io.hpp"
+
+namespace hal {
+
+/// @tparam kPort  duty of the first drive motor; the others, four steering motors and two direction
+///                registers follow
+template <class Bus, uint8_t kPort>
+struct MotorLatch {
+    static constexpr uint8_t kSteer = kPort + kWheelCount;
+    static constexpr uint8_t kDriveSign = kSteer + kSteerCount;
+    static constexpr uint8_t kSteerSign = kDriveSign + 1;
+
+    /// Sets the drive motors. If a direction changes, all six have no power while it does, so no
+    /// bridge reverses under power.
+    /// @param duty      of 255, in the order of hal::Wheel
+    /// @param backward  bit w: motor w runs backward
+    static void drive(const uint8_t (&duty)[kWheelCount], uint8_t backward) {
+        if (backward != backward_) {
+            stop_drive();
+            Bus::template out<kDriveSign>(backward);
+            backward_ = backward;
+        }
+        Bus::template out<kPort>(duty[0]);
+        Bus::template out<kPort + 1>(duty[1]);
+        Bus::template out<kPort + 2>(duty[2]);
+        Bus::template out<kPort + 3>(duty[3]);
+        Bus::template out<kPort + 4>(duty[4]);
+        Bus::template out<kPort + 5>(duty[5]);
+    }
+
+    /// Sets the steering motors; as drive().
+    /// @param right  bit s: motor s turns to the right
+    static void steer(const uint8_t (&duty)[kSteerCount], uint8_t right) {
+        if (right != right_) {
+            stop_steer();
+            Bus::template out<kSteerSign>(right);
+            right_ = right;
+        }
+        Bus::template out<kSteer>(duty[0]);
+        Bus::template out<kSteer + 1>(duty[1]);
+        Bus::template out<kSteer + 2>(duty[2]);
+        Bus::template out<kSteer + 3>(duty[3]);
+    }
+
+    /// Sets one steering motor; the others stay as they are.
+    template <uint8_t kMotor>
+    static void steer_one(uint8_t duty, bool right) {
+        static_assert(kMotor < kSteerCount);
+        constexpr uint8_t kBit = 1U << kMotor;
+        const uint8_t others = right_ & static_cast<uint8_t>(~kBit);
+        const uint8_t wanted = right ? others | kBit : others;
+        if (wanted != right_) {
+            Bus::template out<kSteer + kMotor>(0);
+            Bus::template out<kSteerSign>(wanted);
+            right_ = wanted;
+        }
+        Bus::template out<kSteer + kMotor>(duty);
+    }
+
+    /// All ten motors without power, all directions as after RESET.
+    static void all_off() {
+        stop_drive();
+        stop_steer();
+        Bus::template out<kDriveSign>(0);
+        Bus::template out<kSteerSign>(0);
+        backward_ = 0;
+        right_ = 0;
+    }
+
+private:
+    static void stop_drive() {
+        Bus::template out<kPort>(0);
+        Bus::template out<kPort + 1>(0);
+        Bus::template out<kPort + 2>(0);
+        Bus::template out<kPort + 3>(0);
+        Bus::template out<kPort + 4>(0);
+        Bus::template out<kPort + 5>(0);
+    }
+    static void stop_steer() {
+        Bus::template out<kSteer>(0);
+        Bus::template out<kSteer + 1>(0);
+        Bus::template out<kSteer + 2>(0);
+        Bus::template out<kSteer + 3>(0);
+    }
+
+    static inline uint8_t backward_ = 0;  ///< the direction registers, which cannot be read
+    static inline uint8_t right_ = 0;
+};
+
+}  // namespace hal
