@@ -33,6 +33,8 @@ BoardState::BoardState(const MemoryMap& memory_map) : map(memory_map) {
             first >= map.ram_first && first + kPageSize - 1 <= map.ram_last;
     }
     eeprom.write_protected = true;
+    // The comparator that tells the cause of TRAP drives its line: no undervoltage.
+    ppis[0].set_port_input(chips::I82c55a::Port::b, 0, hal::rb85::kTrapCauseBit, 0);
     for (unsigned counter = 0; counter < chips::I82c54::kCounterCount; ++counter) {
         timers[0].set_periodic_clock(counter, 1);
         timers[0].watch_output(counter, counter == rb85::kTickCounter);

@@ -126,6 +126,7 @@ TEST_F(BoardBusTest, TachometersCountDownTheirOwnCounter) {
 }
 
 TEST_F(BoardBusTest, DirectionBitsDetectorsAndTrapCauseAreRead) {
+    EXPECT_EQ(in(0x21) & 0x80, 0);
     apply(Stimulus::Kind::tach_forward, 0, 0);
     apply(Stimulus::Kind::tach_forward, 3, 0);
     EXPECT_EQ(in(0x21) & 0x3F, 0x36);

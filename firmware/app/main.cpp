@@ -1,0 +1,409 @@
+// main.cpp - the image: board, boot, schedule and controller bound together.
+// Depends on   everything of firmware and hal; i85.h for the interrupt functions.
+// Flow         boot -> { wait for the tick -> acquire -> control -> motors -> telemetry and link ->
+//              checkpoint -> watchdog } ten times a second.
+// Interrupts   tick (RST 7.5), receive (6.5), transmit (5.5), TRAP: they store and return. What
+//              they share with the main line is volatile, with one writer a byte.
+// Design note  docs/design/executive.md, docs/design/boot.md
+// Tests        tests/system/image
+#include <i85.h>
+
+#include "firmware/app/identity.hpp"
+#include "firmware/boot/ram_test.hpp"
+#include "firmware/boot/reset_cause.hpp"
+#include "firmware/boot/rom_check.hpp"
+#include "firmware/boot/stack_guard.hpp"
+#include "firmware/config/memory_layout.hpp"
+#include "firmware/executive/acquisition.hpp"
+#include "firmware/executive/checkpoint.hpp"
+#include "firmware/executive/controller.hpp"
+#include "firmware/executive/motor_commands.hpp"
+#include "firmware/executive/schedule.hpp"
+#include "firmware/link/calibration_frame.hpp"
+#include "firmware/link/frames.hpp"
+#include "hal/board/rb85_parts.hpp"
+#include "hal/target/i8085.hpp"
+
+namespace rover {
+namespace {
+
+using Bus = hal::I8085;
+using Parts = hal::Rb85Parts<Bus>;
+
+// SIM: bit 3 sets the masks. RST 7.5 and 6.5 are always open; a transmitter without work masks 5.5.
+constexpr uint8_t kOpenAll = 0x08;
+constexpr uint8_t kMaskTransmit = 0x09;
+constexpr uint8_t kForgetTick = 0x10;  // a tick that came before
+
+// -- What interrupts and main line share ---------------------------------------------------------
+
+WheelCount wheels[hal::kWheelCount];
+ByteRing<64> received;
+ByteRing<256> to_send;
+volatile uint16_t receive_count;
+volatile uint16_t receive_errors;
+volatile uint8_t trap_count;
+
+// -- The main line's own -------------------------------------------------------------------------
+
+Controller controller;
+hal::RawInputs inputs;
+hal::Commands commands;
+Schedule schedule;
+UplinkParser uplink;
+CheckpointPlace checkpoint;
+BoardStatus status;
+bool restarting;
+
+volatile uint8_t* battery_area() {
+    return reinterpret_cast<volatile uint8_t*>(hal::rb85::kCheckpointFirst);
+}
+volatile uint8_t* stack_guard() {
+    return reinterpret_cast<volatile uint8_t*>(kStackGuardFirst);
+}
+volatile uint8_t& main_faults() {
+    return battery_area()[battery::kFaults];
+}
+volatile uint8_t& trap_faults() {
+    return battery_area()[battery::kFaults + 1];
+}
+void set_fault(BoardFault fault) {
+    main_faults() = bit_or(uint8_t{main_faults()}, static_cast<uint8_t>(fault));
+}
+bool drives_are_stopped() {
+    return bit_or(bit_and(uint8_t{main_faults()}, kFaultsThatStop), uint8_t{trap_faults()}) != 0;
+}
+
+/// A u16 that an interrupt counts up.
+uint16_t read_shared(const volatile uint16_t& value) {
+    Bus::disable_interrupts();
+    const uint16_t seen = value;
+    Bus::enable_interrupts();
+    return seen;
+}
+
+}  // namespace
+}  // namespace rover
+
+extern "C" {
+volatile uint16_t rover_tick_count;  ///< 100 Hz ticks since the end of the boot
+volatile uint16_t rover_step_count;  ///< control steps completed
+extern const rover::Identity rover_identity;
+const rover::Identity rover_identity = rover::kIdentity;
+}
+
+namespace rover {
+namespace {
+
+const volatile uint8_t* identity_bytes() {
+    return reinterpret_cast<const volatile uint8_t*>(&rover_identity);
+}
+
+// -- Interrupts ----------------------------------------------------------------------------------
+
+/// 100 Hz. Serial interrupts come through from its first instructions on; the next tick is 30,720 T
+/// away.
+I85_INTERRUPT(I85_RST_75) void on_tick() {
+    Bus::enable_interrupts();
+    rover_tick_count = add_wrap(uint16_t{rover_tick_count}, uint16_t{1});
+    volatile uint8_t& quiet = battery_area()[battery::kQuietTicks];
+    if (quiet != 255) quiet = add_wrap(uint8_t{quiet}, uint8_t{1});
+    const uint8_t forward = Parts::PpiA::read_b();
+    Parts::TimerB::latch_pulses();
+    Parts::TimerC::latch_pulses();
+    count_wheel(wheels[0], Parts::TimerB::pulses<0>(), bit_and(forward, uint8_t{1}) != 0);
+    count_wheel(wheels[1], Parts::TimerB::pulses<1>(), bit_and(forward, uint8_t{2}) != 0);
+    count_wheel(wheels[2], Parts::TimerB::pulses<2>(), bit_and(forward, uint8_t{4}) != 0);
+    count_wheel(wheels[3], Parts::TimerC::pulses<0>(), bit_and(forward, uint8_t{8}) != 0);
+    count_wheel(wheels[4], Parts::TimerC::pulses<1>(), bit_and(forward, uint8_t{16}) != 0);
+    count_wheel(wheels[5], Parts::TimerC::pulses<2>(), bit_and(forward, uint8_t{32}) != 0);
+}
+
+/// A character has come. One with a wrong frame is counted and not taken; an overrun has cost the
+/// one before.
+I85_INTERRUPT(I85_RST_65) void on_receive() {
+    const uint8_t errors = bit_and(Parts::Usart::status(), Parts::Usart::kErrors);
+    const uint8_t byte = Parts::Usart::read();
+    if (errors != 0) {
+        Parts::Usart::acknowledge_errors();
+        receive_errors = add_wrap(uint16_t{receive_errors}, uint16_t{1});
+        if (errors != Parts::Usart::kOverrunError) return;
+    }
+    receive_count = add_wrap(uint16_t{receive_count}, uint16_t{1});
+    received.push(byte);
+}
+
+/// The transmitter takes a character.
+I85_INTERRUPT(I85_RST_55) void on_transmit() {
+    if (to_send.empty()) {
+        Bus::sim(kMaskTransmit);
+    } else {
+        Parts::Usart::write(to_send.pop());
+    }
+}
+
+/// Undervoltage or bumper: motors off, latched until the next reset.
+I85_INTERRUPT(I85_TRAP) void on_trap() {
+    Parts::Motors::all_off();
+    const bool undervoltage = bit_and(Parts::PpiA::read_b(), hal::rb85::kTrapCauseBit) != 0;
+    const uint8_t cause = undervoltage ? kTrapUndervoltage : kTrapBumper;
+    trap_faults() = bit_or(uint8_t{trap_faults()}, cause);
+    trap_count = add_wrap(uint8_t{trap_count}, uint8_t{1});
+}
+
+// -- Boot ----------------------------------------------------------------------------------------
+
+void start_parts() {
+    Parts::Motors::all_off();
+    Parts::PpiA::set_mode<hal::rb85::kPpiAMode>();
+    Parts::PpiB::set_mode<hal::rb85::kPpiBMode>();
+    Parts::TimerA::start<hal::rb85::kBaudCounter, Parts::TimerA::Mode::square_wave>(
+        hal::rb85::kBaudCount);
+    Parts::TimerB::start_pulses<0>();
+    Parts::TimerB::start_pulses<1>();
+    Parts::TimerB::start_pulses<2>();
+    Parts::TimerC::start_pulses<0>();
+    Parts::TimerC::start_pulses<1>();
+    Parts::TimerC::start_pulses<2>();
+    Parts::Usart::reset();
+}
+
+bool image_is_intact() {
+    const volatile uint8_t* at = identity_bytes() + __builtin_offsetof(Identity, image_size);
+    const uint8_t low = at[0];
+    const uint8_t high = at[1];
+    const uint16_t size = bit_or(widen_u16(low), shift_left_wrap<8>(widen_u16(high)));
+    const auto check_at = static_cast<uint16_t>(reinterpret_cast<uintptr_t>(at) + 2);
+    return rom_is_intact(reinterpret_cast<const volatile uint8_t*>(hal::rb85::kEepromFirst), size,
+                         check_at, [] { Parts::Watchdog::toggle(); });
+}
+
+/// @param all  else only what the image uses
+bool ram_holds(bool all) {
+    auto* const first = reinterpret_cast<volatile uint8_t*>(hal::rb85::kRamFirst);
+    if (!address_lines_hold(first, 0x4000)) return false;
+    uint8_t page = narrow_wrap_u8(uint16_t{hal::rb85::kRamFirst / 256});
+    const uint8_t variables_end = narrow_wrap_u8(uint16_t{kRamInUseLast / 256 + 1});
+    for (; page != hal::rb85::kCheckpointFirst / 256; page = add_wrap(page, uint8_t{1})) {
+        if (!all && page == variables_end) page = narrow_wrap_u8(uint16_t{kStackFirst / 256});
+        Parts::Watchdog::toggle();
+        const uint16_t address = shift_left_wrap<8>(widen_u16(page));
+        if (!cells_hold(reinterpret_cast<volatile uint8_t*>(address), 0)) return false;
+    }
+    return true;
+}
+
+/// What the last run has left, before it is overwritten.
+void take_over_status() {
+    volatile uint8_t* const area = battery_area();
+    status.reset_cause =
+        reset_cause(timer_kept_its_mode<Bus>(), area[battery::kMark], area[battery::kQuietTicks]);
+    if (area[battery::kMark] == static_cast<uint8_t>(RunMark::cold_restart)) drop_checkpoints(area);
+    volatile uint16_t& reset_count = reinterpret_cast<volatile uint16_t&>(area[0]);
+    reset_count = add_wrap(uint16_t{reset_count}, uint16_t{1});
+    status.reset_count = reset_count;
+    status.last_faults = bit_or(widen_u16(uint8_t{main_faults()}),
+                                shift_left_wrap<8>(widen_u16(uint8_t{trap_faults()})));
+    main_faults() = 0;
+    trap_faults() = 0;
+    if (bit_and(Parts::PpiA::read_b(), hal::rb85::kTrapCauseBit) != 0) {
+        trap_faults() = kTrapUndervoltage;
+    }
+    area[battery::kMark] = static_cast<uint8_t>(RunMark::running);
+}
+
+/// Controller from calibration record and checkpoint. @return  true: warm
+bool start_controller() {
+    hal::Calibration calibration;
+    uint8_t bytes[kCalibrationBytes];
+    if (read_record(battery_area() + battery::kCalibration, bytes, kCalibrationBytes)) {
+        read_calibration(bytes, calibration);
+    } else {
+        calibration.version = 0;
+        set_fault(kFaultNoRecord);
+    }
+    controller_reset(controller, calibration);
+    PoseRecord record;
+    if (!find_checkpoint(battery_area(), checkpoint, record)) {
+        set_fault(kFaultNoCheckpoint);
+        return false;
+    }
+    controller_resume(controller, record);
+    return true;
+}
+
+[[gnu::noinline]] void rover_boot() {
+    start_parts();
+    take_over_status();
+    if (!image_is_intact()) set_fault(kFaultRom);
+    const bool warm = start_controller();
+    status.warm = warm ? 1 : 0;
+    if (!ram_holds(!warm)) set_fault(kFaultRam);
+    set_stack_guard(stack_guard());
+    Parts::TimerA::start<hal::rb85::kTickCounter, Parts::TimerA::Mode::rate_generator>(
+        hal::rb85::kTickCount);
+    battery_area()[battery::kQuietTicks] = 0;
+    Parts::Watchdog::toggle();
+    Bus::sim(bit_or(kOpenAll, kForgetTick));
+    Bus::enable_interrupts();
+}
+
+// -- The step ------------------------------------------------------------------------------------
+
+/// Sleeps until a step is due.
+[[gnu::noinline]] void rover_wait() {
+    for (;;) {
+        Bus::disable_interrupts();
+        const uint16_t tick = rover_tick_count;
+        if (step_is_due(schedule, tick)) {
+            Bus::enable_interrupts();
+            if (!begin_due_step(schedule, tick)) set_fault(kFaultStepLate);
+            return;
+        }
+        Bus::enable_interrupts();
+        Bus::halt();  // an interrupt before it ends it
+    }
+}
+
+[[gnu::noinline]] void rover_acquire() {
+    read_wheels(rover_tick_count, wheels, inputs);
+    inputs.tach_present = Parts::Presence::wheels();
+    inputs.detector_bits = Parts::PpiB::read_b();
+    read_range<Parts>(inputs);
+    read_link(received, inputs);
+    if (!read_converter<Parts>(inputs)) set_fault(kFaultConverter);
+}
+
+[[gnu::noinline]] void rover_control() {
+    commands = controller_step(controller, inputs);
+}
+
+/// A TRAP at any place in here leaves the motors off.
+[[gnu::noinline]] void rover_apply() {
+    DriveLatches latches;
+    drive_latches(commands, latches);
+    Parts::Motors::drive(latches.duty, latches.backward);
+    Parts::PpiA::write_c(bit_and(commands.laser_bits, hal::rb85::kLaserMask));
+    if (drives_are_stopped()) Parts::Motors::all_off();
+}
+
+/// Is there room for so many bytes? Else a frame is lost.
+bool room_to_send(uint8_t size) {
+    if (to_send.room() >= size) return true;
+    status.frames_dropped = add_wrap(status.frames_dropped, uint16_t{1});
+    return false;
+}
+
+[[gnu::noinline]] void queue_frame(DownlinkKind kind, const volatile uint8_t* payload,
+                                   uint8_t size) {
+    if (!room_to_send(add_wrap(size, kFrameOverhead))) return;
+    write_frame<Downlink>(to_send, static_cast<uint8_t>(kind), payload, size);
+}
+
+[[gnu::noinline]] void rover_send() {
+    if (room_to_send(commands.telemetry_size)) {
+        const uint8_t* byte = commands.telemetry;
+        for (uint8_t left = commands.telemetry_size; left != 0; --left) to_send.push(*byte++);
+    }
+}
+
+void send_status() {
+    status.faults = bit_or(widen_u16(uint8_t{main_faults()}),
+                           shift_left_wrap<8>(widen_u16(uint8_t{trap_faults()})));
+    status.late_steps = schedule.late_steps;
+    status.missed_steps = schedule.missed_steps;
+    status.received = read_shared(receive_count);
+    status.receive_dropped = read_shared(received.dropped);
+    status.receive_errors = read_shared(receive_errors);
+    status.frames_refused = uplink.refused;
+    status.trap_count = trap_count;
+    queue_frame(DownlinkKind::status, reinterpret_cast<const volatile uint8_t*>(&status),
+                sizeof status);
+}
+
+AckResult store_calibration() {
+    if (uplink.size != kCalibrationBytes) return AckResult::wrong_size;
+    hal::Calibration calibration;
+    read_calibration(reinterpret_cast<const uint8_t(&)[kCalibrationBytes]>(uplink.payload),
+                     calibration);
+    if (!is_valid(calibration)) return AckResult::refused;
+    write_record(battery_area() + battery::kCalibration, 0, uplink.payload, kCalibrationBytes);
+    return AckResult::done;
+}
+
+AckResult prepare_restart() {
+    if (uplink.size != 1) return AckResult::wrong_size;
+    if (uplink.payload[0] > static_cast<uint8_t>(RestartKind::cold)) return AckResult::refused;
+    const bool cold = uplink.payload[0] == static_cast<uint8_t>(RestartKind::cold);
+    battery_area()[battery::kMark] =
+        static_cast<uint8_t>(cold ? RunMark::cold_restart : RunMark::warm_restart);
+    restarting = true;
+    return AckResult::done;
+}
+
+void answer_frame() {
+    AckResult result = AckResult::unknown_type;
+    switch (static_cast<UplinkType>(uplink.type)) {
+        case UplinkType::identity:
+            queue_frame(DownlinkKind::identity, identity_bytes() + sizeof rover_identity.magic,
+                        kIdentityPayloadSize);
+            return;
+        case UplinkType::status:
+            send_status();
+            return;
+        case UplinkType::calibration:
+            result = store_calibration();
+            break;
+        case UplinkType::restart:
+            result = prepare_restart();
+            break;
+        default:
+            break;
+    }
+    const uint8_t payload[2] = {uplink.type, static_cast<uint8_t>(result)};
+    queue_frame(DownlinkKind::acknowledge, payload, sizeof payload);
+}
+
+/// Frames among the bytes of this step.
+[[gnu::noinline]] void rover_link() {
+    if (inputs.command_size == 0) uplink.quiet();
+    for (uint8_t i = 0; i < inputs.command_size; ++i) {
+        if (uplink.take(inputs.command[i])) answer_frame();
+    }
+    const uint16_t lost = bit_or(bit_or(read_shared(received.dropped), read_shared(receive_errors)),
+                                 status.frames_dropped);
+    if (lost != 0) set_fault(kFaultLinkLost);
+    Bus::sim(kOpenAll);  // the transmitter has work
+}
+
+[[gnu::noinline]] void rover_checkpoint() {
+    save_checkpoint(battery_area(), checkpoint, pose_record(controller));
+}
+
+/// Motors off and no more edges: the watchdog resets, when what is queued has been sent.
+void wait_for_reset() {
+    Parts::Motors::all_off();
+    for (;;) Bus::halt();
+}
+
+}  // namespace
+}  // namespace rover
+
+int main() {
+    using namespace rover;
+    rover_boot();
+    for (;;) {
+        rover_wait();
+        rover_acquire();
+        rover_control();
+        rover_apply();
+        rover_send();
+        rover_link();
+        rover_checkpoint();
+        if (!stack_guard_holds(stack_guard())) set_fault(kFaultStack);
+        if (restarting) wait_for_reset();
+        Parts::Watchdog::toggle();
+        battery_area()[battery::kQuietTicks] = 0;
+        rover_step_count = add_wrap(uint16_t{rover_step_count}, uint16_t{1});
+    }
+}

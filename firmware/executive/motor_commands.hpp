@@ -1,0 +1,43 @@
+// motor_commands.hpp - Commands to the motor latches and lasers.
+// Depends on   hal/io.hpp, core/arith.hpp; the board's parts as a template argument.
+// Not here     steering and mast: no loop holds them yet, their motors stay off.
+// Design note  docs/design/executive.md     Tests  tests/firmware/executive/motor_commands_test.cpp
+#pragma once
+
+#include "firmware/core/arith.hpp"
+#include "hal/io.hpp"
+
+namespace rover {
+
+/// Duty of 255 for a speed of 100 percent: |percent| 255/100 rounded to nearest, half up. Beyond
+/// 100 it is 255.
+constexpr uint8_t drive_duty(int8_t percent) {
+    const uint8_t size = min(abs_u8(percent), uint8_t{100});
+    // 653/256 is 255/100 and 0.03 % more, so halves go up and nothing else changes.
+    return narrow_wrap_u8(
+        shift_floor<8>(add_wrap(mul_wrap(widen_u16(size), uint16_t{653}), uint16_t{128})));
+}
+
+/// What the drive latches are to hold.
+struct DriveLatches {
+    uint8_t duty[hal::kWheelCount];
+    uint8_t backward;  ///< bit w: wheel w
+};
+
+/// Equal neighbours, the usual case, are computed once.
+constexpr void drive_latches(const hal::Commands& commands, DriveLatches& latches) {
+    int8_t last_percent = 0;
+    uint8_t duty = 0;
+    uint8_t wheel_bit = 1;
+    latches.backward = 0;
+    for (uint8_t wheel = 0; wheel < hal::kWheelCount; ++wheel) {
+        const int8_t percent = commands.drive_percent[wheel];
+        if (percent != last_percent) duty = drive_duty(percent);
+        last_percent = percent;
+        latches.duty[wheel] = duty;
+        if (percent < 0) latches.backward = bit_or(latches.backward, wheel_bit);
+        wheel_bit = shift_left_wrap<1>(wheel_bit);
+    }
+}
+
+}  // namespace rover

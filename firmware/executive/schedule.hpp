@@ -1,0 +1,40 @@
+// schedule.hpp - when a control step is due, and which steps came late.
+// Depends on   config/controller_tuning.hpp, core/arith.hpp.
+// Bounds       none: ticks are modulo 2^16, and a step is at most 327 s late.
+// Design note  docs/design/executive.md     Tests  tests/firmware/executive/schedule_test.cpp
+#pragma once
+
+#include "firmware/config/controller_tuning.hpp"
+#include "firmware/core/arith.hpp"
+
+namespace rover {
+
+/// Steps are due kTicksPerStep apart, counted from the first one; a late one does not move those
+/// behind it.
+struct Schedule {
+    uint16_t due_tick = 0;
+    uint16_t late_steps = 0;    ///< begun behind their tick, modulo 2^16
+    uint16_t missed_steps = 0;  ///< never begun: the next one was due already, modulo 2^16
+};
+
+constexpr bool step_is_due(const Schedule& schedule, uint16_t tick) {
+    return narrow_wrap_s16(sub_wrap(tick, schedule.due_tick)) >= 0;
+}
+
+/// A step begins now. Books lateness and sets when the next one is due.
+/// @return  false: it is late
+/// @cost    one round of the loop for each missed step
+constexpr bool begin_due_step(Schedule& schedule, uint16_t tick) {
+    uint16_t late_ticks = sub_wrap(tick, schedule.due_tick);
+    schedule.due_tick = add_wrap(schedule.due_tick, kTicksPerStep);
+    if (late_ticks == 0) return true;
+    schedule.late_steps = add_wrap(schedule.late_steps, uint16_t{1});
+    while (late_ticks >= kTicksPerStep) {
+        late_ticks = sub_wrap(late_ticks, kTicksPerStep);
+        schedule.due_tick = add_wrap(schedule.due_tick, kTicksPerStep);
+        schedule.missed_steps = add_wrap(schedule.missed_steps, uint16_t{1});
+    }
+    return false;
+}
+
+}  // namespace rover
