@@ -218,6 +218,33 @@ void Board::set_range_scan(uint8_t present, const chips::RangeModule::Heights& h
     state.range.set_scan(present, heights_q1_mm);
 }
 
+void Board::replay_range_scan(uint8_t counter, uint8_t present,
+                              const chips::RangeModule::Heights& heights_q1_mm) {
+    state.range.advance(state.cpu.t);
+    state.range.set_scan(counter, present, heights_q1_mm);
+}
+
+void Board::set_range_connected(bool connected) {
+    state.range.set_connected(connected, state.cpu.t);
+}
+
+void Board::replay_sensor(uint8_t channel, uint16_t sum_q4) {
+    if (sum_q4 > hal::kAdcMaxQ4Count) {
+        state.analog.set_silent(channel, state.cpu.t);
+    } else {
+        state.analog.set_sensor_sum(channel, sum_q4, state.cpu.t);
+    }
+}
+
+void Board::turn_wheel(uint8_t wheel, int32_t pulses) {
+    if (pulses == 0) return;
+    const uint64_t t = state.cpu.t;
+    schedule({t, Stimulus::Kind::tach_forward, wheel, pulses > 0 ? 1 : 0});
+    chips::I82c54& timer = state.timers[1 + wheel / chips::I82c54::kCounterCount];
+    timer.clock_pulses(wheel % chips::I82c54::kCounterCount,
+                       static_cast<uint64_t>(pulses > 0 ? pulses : -pulses), t);
+}
+
 std::vector<chips::I8251a::TransmittedByte> Board::take_transmitted() {
     return std::exchange(state.usart.transmitted, {});
 }

@@ -60,6 +60,17 @@ public:
     void schedule(const Stimulus& stimulus);
     /// A scan of the range module, from now on.
     void set_range_scan(uint8_t present, const chips::RangeModule::Heights& heights_q1_mm);
+    /// A recorded scan with its own counter; the one before again is no new scan.
+    void replay_range_scan(uint8_t counter, uint8_t present,
+                           const chips::RangeModule::Heights& heights_q1_mm);
+    /// Plugs the range module in or out.
+    void set_range_connected(bool connected);
+    /// A recorded sum of 16 conversions, from now on; above hal::kAdcMaxQ4Count the channel gives
+    /// no answer (chips::AnalogInput). @param channel  multiplexer input
+    void replay_sensor(uint8_t channel, uint16_t sum_q4);
+    /// A wheel turns by so many pulses, now: its direction input, then the pulses. The direction
+    /// stays. @param pulses  negative: backward; 0 changes nothing
+    void turn_wheel(uint8_t wheel, int32_t pulses);
     /// Characters that have left the USART since the last call.
     std::vector<chips::I8251a::TransmittedByte> take_transmitted();
 

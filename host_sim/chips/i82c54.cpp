@@ -274,9 +274,9 @@ void I82c54::set_external_clock(unsigned counter) {
     find_event();
 }
 
-void I82c54::clock_pulse(unsigned counter, uint64_t now_t) {
+void I82c54::clock_pulses(unsigned counter, uint64_t pulse_count, uint64_t now_t) {
     advance(now_t);
-    count(counters[counter], 1);
+    count(counters[counter], pulse_count);
 }
 
 void I82c54::set_gate(unsigned counter, bool level, uint64_t now_t) {

@@ -74,7 +74,9 @@ struct I82c54 {
     /// CLK of `counter` comes from clock_pulse, as after construction.
     void set_external_clock(unsigned counter);
     /// One CLK pulse with its falling edge at `now_t`. @pre set_external_clock
-    void clock_pulse(unsigned counter, uint64_t now_t);
+    void clock_pulse(unsigned counter, uint64_t now_t) { clock_pulses(counter, 1, now_t); }
+    /// So many pulses, all of them before the next access.
+    void clock_pulses(unsigned counter, uint64_t pulse_count, uint64_t now_t);
     /// GATE; high after construction.
     void set_gate(unsigned counter, bool level, uint64_t now_t);
     /// Whether next_event_t() tells of the changes of this output. A baud rate clock would make

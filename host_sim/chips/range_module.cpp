@@ -6,7 +6,11 @@
 namespace host_sim::chips {
 
 void RangeModule::set_scan(uint8_t present, const Heights& heights_q1_mm) {
-    ++scan_counter;
+    set_scan(static_cast<uint8_t>(scan_counter + 1), present, heights_q1_mm);
+}
+
+void RangeModule::set_scan(uint8_t counter, uint8_t present, const Heights& heights_q1_mm) {
+    scan_counter = counter;
     scan_present = present;
     for (unsigned i = 0; i < kSampleCount; ++i) {
         scan_q1_mm[i] = (present >> i & 1) != 0 ? heights_q1_mm[i] : int16_t{0};

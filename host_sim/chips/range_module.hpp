@@ -28,6 +28,9 @@ struct RangeModule {
     /// @param present        bit i: heights_q1_mm[i] was measured; others are sent as 0
     /// @param heights_q1_mm  s16 Q1 mm (0.5 mm), ground in the body frame
     void set_scan(uint8_t present, const Heights& heights_q1_mm);
+    /// The same with a scan counter of its own, to replay a recorded scan: an unchanged counter is
+    /// no new scan.
+    void set_scan(uint8_t counter, uint8_t present, const Heights& heights_q1_mm);
     /// Plugs the module in or out.
     void set_connected(bool plugged, uint64_t now_t);
     /// Lines from the processor. The rising edge of SELECT takes the newest scan and serves its

@@ -46,6 +46,34 @@ TEST(Board, ProgramTooLongIsRefused) {
     EXPECT_THROW(board.program(std::vector<uint8_t>(2), 0x7FFF), std::length_error);
 }
 
+TEST(Board, AWheelTurnsBothWaysByAnyNumberOfPulses) {
+    Board board;
+    load(board, "MVI A,34H\n OUT 17H\n XRA A\n OUT 14H\n OUT 14H\n HLT");
+    board.run(1000);
+    board.turn_wheel(0, 1001);  // the first pulse loads the count
+    EXPECT_EQ(board.state.timers[1].counters[0].value, 65536U - 1000);
+    EXPECT_EQ(board.state.ppis[0].port_level(host_sim::chips::I82c55a::Port::b) & 1, 1);
+    board.turn_wheel(0, 0);
+    EXPECT_EQ(board.state.ppis[0].port_level(host_sim::chips::I82c55a::Port::b) & 1, 1);
+    board.turn_wheel(0, -200);
+    EXPECT_EQ(board.state.timers[1].counters[0].value, 65536U - 1200) << "it counts either way";
+    EXPECT_EQ(board.state.ppis[0].port_level(host_sim::chips::I82c55a::Port::b) & 1, 0);
+}
+
+TEST(Board, ReplayedInputsReachTheChips) {
+    Board board;
+    board.replay_sensor(3, 1607);
+    EXPECT_EQ(board.state.analog.sources[3].sum_q4, 1607);
+    board.replay_sensor(3, hal::kAdcAbsent);
+    using Kind = host_sim::chips::AnalogInput::Source::Kind;
+    EXPECT_EQ(board.state.analog.sources[3].kind, Kind::silent);
+    board.replay_range_scan(77, 0x03, {10, 20});
+    EXPECT_EQ(board.state.range.scan_counter, 77);
+    EXPECT_EQ(board.state.range.scan_q1_mm[1], 20);
+    board.set_range_connected(false);
+    EXPECT_FALSE(board.state.range.connected);
+}
+
 TEST(Board, RunEndsAtTheFirstBoundaryBehindTheLimit) {
     Board board;
     load(board, "LOOP: JMP LOOP");

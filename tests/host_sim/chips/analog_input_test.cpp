@@ -105,6 +105,66 @@ TEST(AnalogInput, StartWhileBusyDoesNotTouchTheHeldVoltage) {
     EXPECT_EQ(input.read(0, 1108), 0x99) << "1 V";
 }
 
+TEST(AnalogInput, AnySixteenConversionsOfAReplayedSumAddUpToItExactly) {
+    for (unsigned sum_q4 = 0; sum_q4 <= 65520; sum_q4 += sum_q4 == 65519 ? 1 : 431) {
+        AnalogInput input(kClockHz);
+        uint64_t t = 1000;
+        input.set_sensor_sum(3, static_cast<uint16_t>(sum_q4), t);
+        std::vector<int> codes;
+        for (int j = 0; j < 40; ++j) {
+            codes.push_back(convert(input, 3, kAcquisitionT, t));
+            ASSERT_GE(codes.back(), static_cast<int>(sum_q4 / 16));
+            ASSERT_LE(codes.back(), static_cast<int>((sum_q4 + 15) / 16)) << "one more at most";
+        }
+        for (std::size_t first = 0; first + 16 <= codes.size(); ++first) {
+            int sum = 0;
+            for (std::size_t i = 0; i < 16; ++i) sum += codes[first + i];
+            ASSERT_EQ(sum, static_cast<int>(sum_q4)) << "from conversion " << first;
+        }
+        ASSERT_EQ(input.unsettled_count, 0u);
+    }
+}
+
+TEST(AnalogInput, TheHighestSumIsTheHighestCodeSixteenTimes) {
+    AnalogInput input(kClockHz);
+    uint64_t t = 1000;
+    input.set_sensor_sum(0, 65520, t);
+    for (int j = 0; j < 16; ++j) EXPECT_EQ(convert(input, 0, kAcquisitionT, t), 4095);
+}
+
+TEST(AnalogInput, ReplayedSumsOfTwoChannelsDoNotDisturbEachOther) {
+    AnalogInput input(kClockHz);
+    uint64_t t = 1000;
+    input.set_sensor_sum(1, 16 * 100 + 7, t);
+    input.set_sensor_sum(2, 16 * 4000 + 9, t);
+    int sum_1 = 0, sum_2 = 0;
+    for (int j = 0; j < 16; ++j) {
+        sum_1 += convert(input, 1, kAcquisitionT, t);
+        sum_2 += convert(input, 2, kAcquisitionT, t);
+    }
+    EXPECT_EQ(sum_1, 1607);
+    EXPECT_EQ(sum_2, 64009);
+    input.set_sensor(1, 0, t);
+    EXPECT_EQ(convert(input, 1, kAcquisitionT, t), 2048) << "a voltage ends the replay";
+}
+
+TEST(AnalogInput, ASilentChannelIsBusyForAsLongAsItIsSelected) {
+    AnalogInput input(kClockHz);
+    uint64_t t = 1000;
+    input.set_sensor(1, 0, t);
+    input.set_silent(0, t);
+    input.select(0, t);
+    input.write(0, 0, t += kAcquisitionT);
+    EXPECT_TRUE(input.busy(t + kConversionT));
+    EXPECT_TRUE(input.busy(t + 100 * kConversionT));
+    EXPECT_EQ(input.read(0, t + 100 * kConversionT), 0xFF) << "nothing drives the bus";
+    t += 100 * kConversionT;
+    EXPECT_EQ(convert(input, 1, kAcquisitionT, t), 2048);
+    EXPECT_FALSE(input.busy(t));
+    input.set_sensor(0, 0, t);
+    EXPECT_EQ(convert(input, 0, kAcquisitionT, t), 2048) << "plugged in again";
+}
+
 TEST(AnalogInput, PropertiesNameAllThreeParts) {
     AnalogInput input(kClockHz);
     std::string all;
@@ -126,11 +186,13 @@ RC_GTEST_PROP(AnalogInput, StridesOfTimeLeaveTheSameState, ()) {
         t = until;
         const auto channel = *rc::gen::inRange<unsigned>(0, 16);
         const auto uv = *rc::gen::inRange<int32_t>(-5'000'000, 5'000'000);
-        const auto action = *rc::gen::inRange<int>(0, 3);
+        const auto action = *rc::gen::inRange<int>(0, 5);
         for (AnalogInput* input : {&one, &many}) {
             if (action == 0) input->set_sensor(channel, uv, t);
             if (action == 1) input->select(channel, t);
             if (action == 2) input->write(channel & 1, 0, t);
+            if (action == 3) input->set_sensor_sum(channel, static_cast<uint16_t>(uv & 0x7FFF), t);
+            if (action == 4) input->set_silent(channel, t);
         }
     }
     one.advance(t + 200);

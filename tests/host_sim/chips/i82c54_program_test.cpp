@@ -97,6 +97,23 @@ TEST(I82c54Clock, PhaseSetsThePulses) {
     EXPECT_THAT(edges_until(timer, 2000), ElementsAre(std::pair{1017ULL, true}));
 }
 
+TEST(I82c54Clock, ManyPulsesAtOnceAreAsManyOneByOne) {
+    for (const unsigned mode : {0u, 2u, 3u, 4u}) {
+        for (const unsigned pulses : {1u, 2u, 7u, 400u, 65536u, 70000u}) {
+            I82c54 one, many;
+            for (I82c54* timer : {&one, &many}) {
+                timer->set_external_clock(1);
+                timer->write(3, static_cast<uint8_t>(0x70 | mode << 1), 10);
+                timer->write(1, 100, 11);
+                timer->write(1, 1, 12);  // 356
+            }
+            for (unsigned i = 0; i < pulses; ++i) one.clock_pulse(1, 20);
+            many.clock_pulses(1, pulses, 20);
+            EXPECT_TRUE(one == many) << "mode " << mode << ", " << pulses << " pulses";
+        }
+    }
+}
+
 TEST(I82c54Clock, ExternalPulsesAreCountedOneByOne) {
     I82c54 timer;
     timer.write(I82c54::kControlAddress, control(2, kBoth, 0), 10);

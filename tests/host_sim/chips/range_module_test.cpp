@@ -251,6 +251,20 @@ TEST(RangeModule, PluggedOutInTheMiddleTimesOutAndPluggedInStartsAnew) {
     EXPECT_TRUE(driver.frame().has_value());
 }
 
+TEST(RangeModule, AReplayedScanCarriesItsOwnCounter) {
+    RangeModule module(kClockHz);
+    module.set_scan(200, 0x81, kHeights);
+    auto bytes = Driver{module}.frame();
+    ASSERT_TRUE(bytes.has_value());
+    EXPECT_EQ((*bytes)[0], 200);
+    EXPECT_EQ((*bytes)[1], 0x81);
+    EXPECT_EQ(sum(*bytes), 0xA5);
+    module.set_scan(200, 0x81, kHeights);  // the same again: nothing new
+    EXPECT_EQ((*Driver{module}.frame())[0], 200);
+    module.set_scan(0x81, kHeights);
+    EXPECT_EQ((*Driver{module}.frame())[0], 201) << "a live scan counts on";
+}
+
 TEST(RangeModule, PropertiesShowTheMistakes) {
     RangeModule module(kClockHz);
     module.set_lines(true, false, 1000);
