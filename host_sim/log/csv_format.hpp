@@ -17,6 +17,7 @@ inline constexpr std::string_view kCsvVersionPrefix = "# rover85-log ";
 inline constexpr std::string_view kCsvVersion = "1";
 inline constexpr std::string_view kCsvChecksumPrefix = "# crc32 ";
 inline constexpr std::string_view kTimeColumn = "time_ms";
+inline constexpr std::string_view kRestartColumn = "restart";
 inline constexpr std::string_view kFormatAdvice = "docs/spec/log-format.md describes the format";
 
 /// Which struct of a step a column belongs to.

@@ -34,10 +34,14 @@ struct Column {
     Part part;
 };
 
+/// The one column beside time that is no field of a struct; of a type that no other column has.
+constexpr Field kRestartField{detail::kRestartColumn, FieldType::presence, 0};
+
 /// True if an empty cell means something by itself: an absent sensor, an unknown truth, no bytes.
 bool may_be_empty(const Column& column) {
-    return column.part == Part::truth || column.field->type == FieldType::bytes ||
-           column.field->type == FieldType::adc || column.field->optional();
+    return column.part == Part::truth || column.field == &kRestartField ||
+           column.field->type == FieldType::bytes || column.field->type == FieldType::adc ||
+           column.field->optional();
 }
 
 class CsvReader {
@@ -62,6 +66,7 @@ private:
     void check_columns();
     void read_row(std::string_view line, Log& log);
     std::uint32_t read_time(std::string_view cell);
+    [[nodiscard]] Restart read_restart(std::string_view cell) const;
     void read_cell(const Column& column, std::string_view cell, Row& row) const;
     void read_double(const Field& field, std::string_view cell, std::byte* base) const;
     void read_integer(const Field& field, std::string_view cell, std::byte* base) const;
@@ -176,6 +181,15 @@ void CsvReader::read_header(std::string_view line) {
 }
 
 void CsvReader::add_column(std::string_view name) {
+    if (name == detail::kRestartColumn) {
+        for (const Column& column : columns_) {
+            if (column.field == &kRestartField) {
+                fail("column restart appears twice", "delete one of them");
+            }
+        }
+        columns_.push_back({&kRestartField, Part::input});
+        return;
+    }
     for (const Part part : {Part::input, Part::truth, Part::estimate, Part::command}) {
         for (const Field& field : detail::fields_of(part)) {
             if (field.name != name || field.type == FieldType::presence) continue;
@@ -266,7 +280,13 @@ void CsvReader::read_row(std::string_view line, Log& log) {
         end = comma == nullptr
                   ? line.size()
                   : static_cast<std::size_t>(static_cast<const char*>(comma) - line.data());
-        if (end != start) read_cell(column, line.substr(start, end - start), row);
+        if (end == start) continue;
+        const std::string_view cell = line.substr(start, end - start);
+        if (column.field == &kRestartField) {
+            step.restart = read_restart(cell);
+        } else {
+            read_cell(column, cell, row);
+        }
     }
     close_row(row, line, step);
 }
@@ -324,6 +344,13 @@ void CsvReader::read_mode(const Field& field, std::string_view cell, std::byte* 
         }
     }
     fail_cell(field.name, cell, "is not a slip mode (odometry_only, tracking, ...)");
+}
+
+Restart CsvReader::read_restart(std::string_view cell) const {
+    const auto names = detail::restart_names();
+    const auto found = std::find(names.begin() + 1, names.end(), cell);
+    if (found == names.end()) fail_cell(detail::kRestartColumn, cell, "is not warm or cold");
+    return static_cast<Restart>(found - names.begin());
 }
 
 void CsvReader::read_hex(const Field& field, std::string_view cell, std::byte* base) const {

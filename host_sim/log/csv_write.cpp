@@ -102,14 +102,24 @@ char* put_cell(char* out, const Field& field, const std::byte* base) {
 void append_rows(std::string& out, const Log& log, std::string_view name) {
     const std::vector<Column> columns = choose_columns(log);
     out += detail::kTimeColumn;
+    const bool restarts = std::any_of(log.steps.begin(), log.steps.end(), [](const LogStep& step) {
+        return step.restart != Restart::none;
+    });
+    if (restarts) (out += ',') += detail::kRestartColumn;
     for (const Column& column : columns) (out += ',') += column.field->name;
     out += '\n';
-    std::vector<char> row((columns.size() + 1) * kCellSizeMax + 1);
+    std::vector<char> row((columns.size() + 2) * kCellSizeMax + 1);
     std::int64_t last_time_ms = -1;
     for (const LogStep& step : log.steps) {
         detail::check_step(step, last_time_ms, name);
         last_time_ms = step.time_ms;
         char* at = std::to_chars(row.data(), row.data() + kCellSizeMax, step.time_ms).ptr;
+        if (restarts) {
+            *at++ = ',';
+            at = std::ranges::copy(detail::restart_names()[static_cast<std::size_t>(step.restart)],
+                                   at)
+                     .out;
+        }
         for (const Column& column : columns) {
             *at++ = ',';
             const std::byte* base = base_of_part(step, column.part);

@@ -26,9 +26,17 @@ struct Truth {
     double slip = 0;              ///< 1 - advance/odometry over the last cycle; [.., 1]
 };
 
+/// What happened to the processor right before a step.
+enum class Restart : std::uint8_t {
+    none,
+    warm,  ///< reset; the controller went on from its checkpoint
+    cold,  ///< reset; the checkpoint was dropped
+};
+
 /// One control step. Inputs are always there; the rest when its producer has run.
 struct LogStep {
-    std::uint32_t time_ms = 0;  ///< since the log's start, strictly increasing
+    std::uint32_t time_ms = 0;        ///< since the log's start, strictly increasing
+    Restart restart = Restart::none;  ///< from here on ticks, pulses and steps count from 0
     hal::RawInputs inputs;
     std::optional<Truth> truth;                 ///< fields that the source lacks are NaN
     std::optional<rover::Estimates> estimates;  ///< what the controller concluded

@@ -172,6 +172,7 @@ constexpr std::array<std::string_view, 6> kModeNames = {
     "odometry_only", "tracking", "reacquiring", "reversing", "turning", "moved",
 };
 static_assert(static_cast<std::size_t>(rover::SlipMode::moved) == kModeNames.size() - 1);
+constexpr std::array<std::string_view, 3> kRestartNames = {"", "warm", "cold"};
 
 template <class Value>
 Value load_as(const std::byte* at) {
@@ -210,6 +211,9 @@ std::span<const Field> command_fields() {
 }
 std::span<const std::string_view> mode_names() {
     return kModeNames;
+}
+std::span<const std::string_view> restart_names() {
+    return kRestartNames;
 }
 
 IntegerRange integer_range(FieldType type) {

@@ -63,8 +63,9 @@ void store_double(const Field& field, std::byte* base, double value);
 bool is_present(const Field& field, const std::byte* base);
 void set_present(const Field& field, std::byte* base);
 
-/// Names of rover::SlipMode in order of value.
+/// Names of rover::SlipMode and of Restart in order of value; no restart has none.
 std::span<const std::string_view> mode_names();
+std::span<const std::string_view> restart_names();
 
 template <class Struct>
 const std::byte* base_of(const Struct& value) {

@@ -242,14 +242,20 @@ void RlogParser::accept(const Record& record) {
 bool RlogParser::next(LogStep& step) {
     while (offset_ < bytes_.size()) {
         const Record record = read_record();
-        if (record.type == static_cast<std::uint8_t>(RecordType::step)) {
+        const bool is_step = record.type == static_cast<std::uint8_t>(RecordType::step);
+        if (is_step || record.type == static_cast<std::uint8_t>(RecordType::restart)) {
             try {
-                decode_step(record.payload, step);
+                if (is_step) {
+                    decode_step(record.payload, step);
+                } else {
+                    decode_restart(record.payload);
+                }
             } catch (const PayloadError& error) {
                 fail(offset_ + kRecordPrefixSize + error.at, error.what);
             }
             accept(record);
-            return true;
+            if (is_step) return true;
+            continue;
         }
         if ((record.type & kSkippableBit) == 0) {
             fail(offset_, fmt::format("record {} has type {}, which this program does not know and "
@@ -258,7 +264,22 @@ bool RlogParser::next(LogStep& step) {
         }
         accept(record);
     }
+    if (restart_ != Restart::none) {
+        fail(restart_offset_, "the file ends behind a restart: its step is missing");
+    }
     return false;
+}
+
+void RlogParser::decode_restart(std::string_view payload) {
+    Cursor cursor(payload);
+    if (restart_ != Restart::none) throw PayloadError{0, "two restarts before one step"};
+    const auto kind = static_cast<unsigned>(cursor.number<1>());
+    if (kind == 0 || kind > static_cast<unsigned>(Restart::cold)) {
+        throw PayloadError{0, fmt::format("restart {} is out of range [1, 2]", kind)};
+    }
+    cursor.end();
+    restart_ = static_cast<Restart>(kind);
+    restart_offset_ = offset_;
 }
 
 void RlogParser::decode_head(std::string_view payload) {
@@ -292,6 +313,8 @@ void RlogParser::decode_step(std::string_view payload, LogStep& step) {
     }
     cursor.end();
     last_time_ms_ = step.time_ms;
+    step.restart = restart_;
+    restart_ = Restart::none;
 }
 
 }  // namespace detail

@@ -135,6 +135,10 @@ void check_step(const LogStep& step, std::int64_t last_time_ms, std::string_view
         refuse(name, fmt::format("step at {} ms comes after {} ms: time must increase",
                                  step.time_ms, last_time_ms));
     }
+    if (step.restart > Restart::cold) {
+        refuse(name, fmt::format("step at {} ms: restart {} does not exist", step.time_ms,
+                                 static_cast<unsigned>(step.restart)));
+    }
     check_fields(input_fields(), base_of(step.inputs), step.time_ms, name);
     if (step.truth) check_fields(truth_fields(), base_of(*step.truth), step.time_ms, name);
     if (step.estimates)
@@ -177,6 +181,10 @@ RlogEncoder::RlogEncoder(const LogHead& head, std::string_view name, std::string
 void RlogEncoder::append(const LogStep& step, std::string& out) {
     check_step(step, last_time_ms_, name_);
     last_time_ms_ = step.time_ms;
+    if (step.restart != Restart::none) {
+        payload_.assign(1, static_cast<char>(step.restart));
+        append(out, RecordType::restart);
+    }
     payload_.clear();
     append_step_payload(payload_, step);
     append(out, RecordType::step);

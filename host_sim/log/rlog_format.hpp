@@ -20,7 +20,7 @@ inline constexpr std::size_t kRecordPrefixSize = 9;  ///< payload size, sequence
 inline constexpr std::size_t kRecordOverhead = kRecordPrefixSize + 4;  ///< and the checksum
 inline constexpr std::size_t kPayloadSizeMax = std::size_t{1} << 24;
 
-enum class RecordType : std::uint8_t { head = 1, step = 2 };
+enum class RecordType : std::uint8_t { head = 1, step = 2, restart = 3 };
 inline constexpr std::uint64_t kNanBits = 0x7FF8'0000'0000'0000;  ///< the only NaN written
 inline constexpr std::uint8_t kSkippableBit = 0x80;  ///< an unknown type with it is skipped
 
@@ -68,9 +68,12 @@ public:
 
     [[nodiscard]] LogHead take_head() { return std::move(head_); }
     /// Reads up to the next step, over skippable records. @return false at the end of the file
-    /// @errors  LogError; offset() is then the start of the first record that is not whole
+    /// @errors  LogError; offset() is then the start of the first record that is not whole, or of
+    ///          the restart record before it
     bool next(LogStep& step);
-    [[nodiscard]] std::size_t offset() const { return offset_; }
+    [[nodiscard]] std::size_t offset() const {
+        return restart_ == Restart::none ? offset_ : restart_offset_;
+    }
 
 private:
     struct Record {
@@ -82,12 +85,15 @@ private:
     void accept(const Record& record);
     void decode_head(std::string_view payload);
     void decode_step(std::string_view payload, LogStep& step);
+    void decode_restart(std::string_view payload);
     [[noreturn]] void fail(std::size_t at, std::string_view what) const;
 
     std::string_view bytes_;
     std::string name_;
     LogHead head_;
     std::size_t offset_ = 0;
+    Restart restart_ = Restart::none;  ///< of a record whose step has not come yet
+    std::size_t restart_offset_ = 0;
     std::uint32_t chain_crc_ = 0;
     std::uint32_t next_crc_ = 0;
     std::uint32_t sequence_ = 0;

@@ -51,7 +51,10 @@ std::string checksum_line(const std::string& content, int rows) {
 }
 
 RC_GTEST_PROP(Csv, RoundTripGivesTheSameLog, (std::uint64_t seed)) {
-    const Log log = log_test::LogMaker(seed).make(*rc::gen::inRange<std::size_t>(0, 30));
+    Log log = log_test::LogMaker(seed).make(*rc::gen::inRange<std::size_t>(0, 30));
+    for (host_sim::LogStep& step : log.steps) {
+        step.restart = static_cast<host_sim::Restart>(*rc::gen::inRange<int>(0, 3));
+    }
     const std::string text = encode_csv(log);
     const Log again = read_csv(text, "x");
     RC_ASSERT(log_test::same(again, log));
@@ -60,7 +63,10 @@ RC_GTEST_PROP(Csv, RoundTripGivesTheSameLog, (std::uint64_t seed)) {
 }
 
 RC_GTEST_PROP(Csv, ConversionToRlogAndBackIsLossless, (std::uint64_t seed)) {
-    const Log log = log_test::LogMaker(seed).make(*rc::gen::inRange<std::size_t>(0, 30));
+    Log log = log_test::LogMaker(seed).make(*rc::gen::inRange<std::size_t>(0, 30));
+    for (host_sim::LogStep& step : log.steps) {
+        step.restart = static_cast<host_sim::Restart>(*rc::gen::inRange<int>(0, 3));
+    }
     const std::string bytes = encode_rlog(log);
     const std::string text = encode_csv(host_sim::read_rlog(bytes, "x"));
     RC_ASSERT(encode_rlog(read_csv(text, "x")) == bytes);
@@ -223,6 +229,23 @@ TEST(Csv, RefusesRowsWithAnotherNumberOfCells) {
     EXPECT_TRUE(refused_at("time_ms,tick_count\n1,1,\n", 2, "3 cells where the header has 2"));
     EXPECT_TRUE(refused_at("time_ms,tick_count\n\n", 2, "1 cells where the header has 2"));
     EXPECT_TRUE(refused_at("time_ms\n\n", 2, "time_ms"));
+}
+
+TEST(Csv, TheRestartColumnIsWrittenOnlyWhereThereIsOne) {
+    Log log = log_test::small_log(3);
+    EXPECT_EQ(encode_csv(log).find("restart"), std::string::npos);
+    log.steps[1].restart = host_sim::Restart::warm;
+    log.steps[2].restart = host_sim::Restart::cold;
+    const std::string text = encode_csv(log);
+    EXPECT_NE(text.find("\ntime_ms,restart,tick_count,"), std::string::npos);
+    EXPECT_TRUE(log_test::same(read_csv(text, "x"), log));
+    const Log by_hand =
+        read_csv("time_ms,roll_q4_count,restart\n100,1,\n200,2,warm\n300,,cold\n", "x");
+    EXPECT_EQ(by_hand.steps[0].restart, host_sim::Restart::none);
+    EXPECT_EQ(by_hand.steps[1].restart, host_sim::Restart::warm);
+    EXPECT_EQ(by_hand.steps[2].restart, host_sim::Restart::cold);
+    EXPECT_TRUE(refused_at("time_ms,restart\n1,hot\n", 2, "column restart: \"hot\" is not warm"));
+    EXPECT_TRUE(refused_at("time_ms,restart,restart\n", 1, "column restart appears twice"));
 }
 
 TEST(Csv, RefusesWrongHeaderLines) {

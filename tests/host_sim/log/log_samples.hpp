@@ -86,8 +86,8 @@ bool same(const std::optional<Value>& a, const std::optional<Value>& b) {
 }
 
 inline bool same(const host_sim::LogStep& a, const host_sim::LogStep& b) {
-    return a.time_ms == b.time_ms && same(a.inputs, b.inputs) && same(a.truth, b.truth) &&
-           same(a.estimates, b.estimates) && same(a.commands, b.commands);
+    return a.time_ms == b.time_ms && a.restart == b.restart && same(a.inputs, b.inputs) &&
+           same(a.truth, b.truth) && same(a.estimates, b.estimates) && same(a.commands, b.commands);
 }
 
 /// True if both logs say the same; what an absent slot holds says nothing, nor does `unverified`.
