@@ -389,7 +389,7 @@ void wait_for_reset() {
 }  // namespace
 }  // namespace rover
 
-int main() {
+int main() {  // tidy-allow(explicit-width): the language wants int
     using namespace rover;
     rover_boot();
     for (;;) {

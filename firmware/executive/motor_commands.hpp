@@ -13,9 +13,9 @@ namespace rover {
 /// 100 it is 255.
 constexpr uint8_t drive_duty(int8_t percent) {
     const uint8_t size = min(abs_u8(percent), uint8_t{100});
-    // 653/256 is 255/100 and 0.03 % more, so halves go up and nothing else changes.
-    return narrow_wrap_u8(
-        shift_floor<8>(add_wrap(mul_wrap(widen_u16(size), uint16_t{653}), uint16_t{128})));
+    // 2.55 is 2 and 563/1024; 530 instead of 512 makes halves go up. Exact for all 101 values.
+    const uint16_t scaled = add_wrap(mul_wrap(widen_u16(size), uint16_t{563}), uint16_t{530});
+    return add_wrap(shift_left_wrap<1>(size), narrow_wrap_u8(shift_floor<10>(scaled)));
 }
 
 /// What the drive latches are to hold.

@@ -1,0 +1,75 @@
+// acquisition_test.cpp - inputs from parts that answer, and from parts that do not.
+#include "firmware/executive/acquisition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace {
+
+struct Parts {
+    static inline std::array<std::uint16_t, 16> sums{};
+    static inline hal::RangeStatus range_status = hal::RangeStatus::ok;
+    static inline hal::RangeFrame scan{};
+
+    struct AnalogInputs {
+        static std::uint16_t sum_of_16(std::uint8_t channel) { return sums[channel]; }
+    };
+    struct Range {
+        static hal::RangeStatus read(hal::RangeFrame& frame) {
+            frame = scan;
+            return range_status;
+        }
+    };
+};
+
+TEST(ReadConverter, SamplesTheFiveAnglesAndLeavesTheRestAbsent) {
+    for (std::uint16_t i = 0; i < 16; ++i) Parts::sums[i] = static_cast<std::uint16_t>(1000 * i);
+    hal::RawInputs inputs;
+    EXPECT_TRUE(rover::read_converter<Parts>(inputs));
+    for (std::uint16_t i = 0; i < hal::kAdcChannelCount; ++i) {
+        EXPECT_EQ(inputs.adc_q4_count[i], i < 5 ? 1000 * i : 0xFFFF) << i;
+    }
+}
+
+TEST(ReadConverter, AChannelWithoutAnswerIsAbsentAndTold) {
+    for (std::uint16_t& sum : Parts::sums) sum = 7;
+    Parts::sums[3] = hal::kAdcAbsent;
+    hal::RawInputs inputs;
+    EXPECT_FALSE(rover::read_converter<Parts>(inputs));
+    EXPECT_EQ(inputs.adc_q4_count[3], hal::kAdcAbsent);
+    EXPECT_EQ(inputs.adc_q4_count[4], 7);
+}
+
+TEST(ReadRange, TakesAScanAndKeepsTheCountWithoutOne) {
+    Parts::scan = {9, 0x83, {1, -2, 3, -4, 5, -6, 7, -8}};
+    Parts::range_status = hal::RangeStatus::ok;
+    hal::RawInputs inputs;
+    rover::read_range<Parts>(inputs);
+    EXPECT_EQ(inputs.range_scan_count, 9);
+    EXPECT_EQ(inputs.range_present, 0x83);
+    EXPECT_EQ(inputs.range_q1_mm[1], -2);
+    EXPECT_EQ(inputs.range_q1_mm[7], -8);
+    for (const auto status : {hal::RangeStatus::absent, hal::RangeStatus::checksum}) {
+        Parts::range_status = status;
+        Parts::scan = {200, 0xFF, {}};
+        rover::read_range<Parts>(inputs);
+        EXPECT_EQ(inputs.range_present, 0);
+        EXPECT_EQ(inputs.range_scan_count, 9);
+    }
+}
+
+TEST(ReadLink, TakesSixteenBytesAStepInOrder) {
+    rover::ByteRing<64> ring;
+    for (std::uint8_t i = 0; i < 40; ++i) ring.push(i);
+    hal::RawInputs inputs;
+    for (std::uint8_t expected = 0; const int size : {16, 16, 8, 0}) {
+        rover::read_link(ring, inputs);
+        ASSERT_EQ(inputs.command_size, size);
+        for (int i = 0; i < size; ++i)
+            EXPECT_EQ(inputs.command[static_cast<std::size_t>(i)], expected + i);
+        expected = static_cast<std::uint8_t>(expected + size);
+    }
+}
+
+}  // namespace
