@@ -19,17 +19,18 @@ struct Ad574a {
 
     /// Starts a conversion of 12 bits. @pre the input has settled; no conversion runs
     /// @ref  Table I
-    static void start() { Bus::template out<kPort>(0); }
+    static void start(uint8_t anything = 0) { Bus::template out<kPort>(anything); }
 
     [[nodiscard]] static bool busy() { return (Bus::template in<kStatusPort>() & kBusyBit) != 0; }
 
     /// Waits for the end of the conversion.
     /// @return  false: it still runs behind the bound, so the converter does not work
     [[nodiscard]] static bool wait() {
-        for (uint8_t polls = kPollsMax; polls != 0; --polls) {
-            if (!busy()) return true;
-        }
-        return false;
+        uint8_t polls = kPollsMax + 1;
+        do {
+            if (--polls == 0) return false;
+        } while (busy());
+        return true;
     }
 
     /// Bits 11 to 4. @pre no conversion runs (else FFh)

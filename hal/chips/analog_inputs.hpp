@@ -27,25 +27,27 @@ struct AnalogInputs {
         Ppi::write_a(channel);
         settle();
         uint16_t high_sum = 0;
-        uint16_t low_sum = 0;
-        uint8_t high = 0;
-        uint8_t low = 0;
-        for (uint8_t left = kConversions; left != 0; --left) {
-            Bus::disable_interrupts();
-            Adc::start();
-            high_sum = static_cast<uint16_t>(high_sum + high);  // of the one before
-            low_sum = static_cast<uint16_t>(low_sum + low);
-            if (!Adc::wait()) {
-                Bus::enable_interrupts();
-                return kAdcAbsent;
-            }
-            high = Adc::high();
-            low = Adc::low();
+        uint8_t low_sum = 0;  // 16 times 15 at most
+        uint8_t left = kConversions - 1;
+        Bus::disable_interrupts();
+        Adc::start();
+        while (Adc::wait()) {
+            const uint8_t high = Adc::high();
+            const uint8_t low = Adc::low();
+            Bus::let_interrupts_in();
+            Adc::start(low);
+            (void)Adc::busy();  // with it, wait() below looks first when 35 us are over
+            high_sum = static_cast<uint16_t>(high_sum + high);
+            low_sum = static_cast<uint8_t>(low_sum + (low >> 4));
+            if (--left != 0) continue;
+            if (!Adc::wait()) break;
+            high_sum = static_cast<uint16_t>(high_sum + Adc::high());
+            low_sum = static_cast<uint8_t>(low_sum + (Adc::low() >> 4));
             Bus::enable_interrupts();
+            return static_cast<uint16_t>((high_sum << 4) + low_sum);
         }
-        high_sum = static_cast<uint16_t>(high_sum + high);
-        low_sum = static_cast<uint16_t>(low_sum + low);
-        return static_cast<uint16_t>((high_sum << 4) + (low_sum >> 4));
+        Bus::enable_interrupts();
+        return kAdcAbsent;
     }
 
     /// One conversion of one channel. Leaves the multiplexer as it was.

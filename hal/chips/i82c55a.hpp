@@ -34,16 +34,30 @@ struct I82c55a {
     static void write_c(uint8_t value) { Bus::template out<kPortC>(value); }
 
     /// One bit of port C; the others keep their levels, also against an interrupt in between.
+    /// @tparam kMask  the bit's mask, one of the eight powers of two
     /// @ref  "Single Bit Set/Reset Feature"
-    template <uint8_t kBit>
-    static void set_c() {
-        static_assert(kBit < 8);
-        Bus::template out<kControl>(kBit << 1 | 1);
+    template <uint8_t kMask>
+    static void put_c(bool level) {
+        constexpr uint8_t kClear = bit_word<kMask>();
+        Bus::template out<kControl>(level ? kClear | 1 : kClear);
     }
-    template <uint8_t kBit>
+    template <uint8_t kMask>
+    static void set_c() {
+        put_c<kMask>(true);
+    }
+    template <uint8_t kMask>
     static void clear_c() {
-        static_assert(kBit < 8);
-        Bus::template out<kControl>(kBit << 1);
+        put_c<kMask>(false);
+    }
+
+private:
+    /// Control word that clears a bit: its number in bits 3 to 1.
+    template <uint8_t kMask>
+    static constexpr uint8_t bit_word() {
+        static_assert(kMask != 0 && (kMask & (kMask - 1)) == 0, "one bit");
+        uint8_t word = 0;
+        for (uint8_t rest = kMask; rest != 1; rest >>= 1) word += 2;
+        return word;
     }
 };
 

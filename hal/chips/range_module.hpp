@@ -25,13 +25,15 @@ struct RangeFrame {
 static_assert(sizeof(RangeFrame) == 2 + 2 * kRangeSampleCount);
 
 /// @tparam Ppi         I82c55a: port A has the data, port C the other lines
-/// @tparam kAckBit     of port C, input
-/// @tparam kStrobeBit  of port C, output
-/// @tparam kSelectBit  of port C, output
+/// @tparam kAckBit     mask in port C, input
+/// @tparam kStrobeBit  mask in port C, output
+/// @tparam kSelectBit  mask in port C, output
 template <class Ppi, uint8_t kAckBit, uint8_t kStrobeBit, uint8_t kSelectBit>
 struct RangeModule {
-    /// Polls of ACKNOWLEDGE. One takes at least 27 T (IN, ANI or XRA, jump), so this is at least
-    /// 100 us; a module needs 20 us.
+    static_assert(kAckBit == 1, "ACKNOWLEDGE is compared with bit 0 of a count");
+
+    /// Polls of ACKNOWLEDGE for a byte. One takes at least 27 T (IN, test, jump), so they last at
+    /// least 100 us; a module needs 20 us.
     static constexpr uint8_t kPollsMax = 12;
     static constexpr uint8_t kSum = 0xA5;
 
@@ -39,36 +41,35 @@ struct RangeModule {
     /// @param frame  meaningless unless ok
     [[nodiscard]] static RangeStatus read(RangeFrame& frame) {
         uint8_t* next = reinterpret_cast<uint8_t*>(&frame);
-        uint8_t lines = kSelectBit;
         uint8_t sum = 0;
-        RangeStatus status = RangeStatus::ok;
-        for (uint8_t left = sizeof(RangeFrame) + 1;;) {
-            Ppi::write_c(lines);
-            if (!acknowledged(lines)) {
-                status = RangeStatus::absent;
-                break;
-            }
-            const uint8_t value = Ppi::read_a();
-            sum = static_cast<uint8_t>(sum + value);
+        uint8_t value = 0;
+        uint8_t left = sizeof(RangeFrame) + 1;  // odd: STROBE is low
+        RangeStatus status = RangeStatus::absent;
+        Ppi::write_c(kSelectBit);
+        for (;;) {
+            sum = static_cast<uint8_t>(sum + value);  // of the byte before: the module is busy now
+            if (!acknowledged(left)) break;
+            value = Ppi::read_a();
             if (--left == 0) {
-                if (sum != kSum) status = RangeStatus::checksum;
+                sum = static_cast<uint8_t>(sum + value);
+                status = sum == kSum ? RangeStatus::ok : RangeStatus::checksum;
                 break;
             }
-            *next++ = value;
-            lines ^= kStrobeBit;
+            Ppi::template put_c<kStrobeBit>((left & 1) == 0);
+            *next++ = value;  // while the module fetches the next byte
         }
         Ppi::write_c(0);
         return status;
     }
 
 private:
-    /// Waits until ACKNOWLEDGE is what STROBE is.
-    static bool acknowledged(uint8_t lines) {
-        const uint8_t wanted = (lines & kStrobeBit) != 0 ? kAckBit : 0;
-        for (uint8_t polls = kPollsMax; polls != 0; --polls) {
-            if ((Ppi::read_c() & kAckBit) == wanted) return true;
-        }
-        return false;
+    /// Waits until ACKNOWLEDGE is what STROBE is: low while an odd number of bytes is left.
+    static bool acknowledged(uint8_t left) {
+        uint8_t polls = kPollsMax + 1;
+        do {
+            if (--polls == 0) return false;
+        } while (((Ppi::read_c() ^ left) & kAckBit) == 0);
+        return true;
     }
 };
 

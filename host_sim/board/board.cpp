@@ -79,6 +79,7 @@ void Board::power_cycle() {
     std::copy_n(fresh.eeprom.data(), state.map.eeprom_last + 1U, fresh.memory.bytes.begin());
     fresh.cpu.t = t;
     fresh.range = state.range;
+    fresh.presence = state.presence;
     fresh.stimuli = state.stimuli;
     state = fresh;
     bus_.reset(t);

@@ -68,6 +68,8 @@ uint8_t BoardBus::in(uint8_t port, uint64_t t) {
         value = read_ppi((port - rb85::kPpiA) / 4U, port & 3, t);
     } else if (in_block(port, rb85::kAdc, 2)) {
         value = s_.analog.read(port & 1, t);
+    } else if (port == rb85::kPresence) {
+        value = s_.presence.read(0, t);
     } else if (!in_block(port, rb85::kMotorDrive, 12)) {
         violate(Violation::Kind::unmapped_in, port, value, t);
     }
@@ -197,6 +199,9 @@ void BoardBus::apply(const Stimulus& stimulus) {
             s_.ppis[0].set_port_input(Port::b, on ? bit : 0, bit, t);
             break;
         }
+        case Stimulus::Kind::tach_connected:
+            s_.presence.set_connected(stimulus.index, on);
+            break;
         case Stimulus::Kind::detectors:
             s_.ppis[1].set_port_input(Port::b, byte, 0xFF, t);
             break;

@@ -16,6 +16,7 @@
 #include "host_sim/chips/i82c54.hpp"
 #include "host_sim/chips/i82c55a.hpp"
 #include "host_sim/chips/motor_latch.hpp"
+#include "host_sim/chips/presence_buffer.hpp"
 #include "host_sim/chips/range_module.hpp"
 #include "host_sim/chips/sod_watchdog.hpp"
 #include "host_sim/cpu/cpu_state.hpp"
@@ -65,6 +66,7 @@ struct BoardState {
     chips::AnalogInput analog{hal::rb85::kClockHz};
     chips::RangeModule range{hal::rb85::kClockHz};
     chips::MotorLatch motors;
+    chips::PresenceBuffer presence;
     chips::SodWatchdog watchdog{hal::rb85::kClockHz};
 
     std::deque<Stimulus> stimuli;  ///< in the order of their times

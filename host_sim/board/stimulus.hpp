@@ -9,15 +9,16 @@ namespace host_sim {
 /// One outside event. Kept in the board's state until its time has come.
 struct Stimulus {
     enum class Kind : uint8_t {
-        sensor,        ///< index: multiplexer input; value: microvolts
-        tach_pulse,    ///< index: wheel
-        tach_forward,  ///< index: wheel; value: 1 turns forward, 0 backward
-        detectors,     ///< value: the eight laser detector bits
-        undervoltage,  ///< value: 1 pulls TRAP
-        bumper,        ///< value: 1 pulls TRAP
-        service,       ///< value: level of SID, the service jumper
-        serial_byte,   ///< value: a byte from the ground at the link's baud rate
-        reset_button,  ///< pressed and let go
+        sensor,          ///< index: multiplexer input; value: microvolts
+        tach_pulse,      ///< index: wheel
+        tach_forward,    ///< index: wheel; value: 1 turns forward, 0 backward
+        tach_connected,  ///< index: wheel; value: 1 plugged in, 0 not
+        detectors,       ///< value: the eight laser detector bits
+        undervoltage,    ///< value: 1 pulls TRAP
+        bumper,          ///< value: 1 pulls TRAP
+        service,         ///< value: level of SID, the service jumper
+        serial_byte,     ///< value: a byte from the ground at the link's baud rate
+        reset_button,    ///< pressed and let go
     };
     uint64_t t = 0;
     Kind kind = Kind::sensor;

@@ -347,7 +347,8 @@ void I82c54::write(uint16_t address, uint8_t value, uint64_t now_t) {
     find_event();
 }
 
-void I82c54::latch_count(Counter& c) {
+// Whoever latches status and count together sees by the null count bit that there is no count yet.
+void I82c54::latch_count(Counter& c, bool status_tells) {
     if (c.count_latched) {
         ++lost_latch_count;
         return;
@@ -356,7 +357,7 @@ void I82c54::latch_count(Counter& c) {
         ++unprogrammed_access_count;
         return;
     }
-    undefined_read_count += c.loaded ? 0 : 1;
+    undefined_read_count += c.loaded || status_tells ? 0 : 1;
     c.count_latched = true;
     c.latched_count = count_bits(c);
 }
@@ -369,20 +370,21 @@ void I82c54::write_control(uint8_t value) {
             if ((value >> (index + 1) & 1) == 0) {
                 continue;
             }
-            if ((value & kReadBackNoStatus) == 0) {
+            const bool status = (value & kReadBackNoStatus) == 0;
+            if (status) {
                 lost_latch_count += c.status_latched ? 1 : 0;
                 c.latched_status = c.status_latched ? c.latched_status : status_bits(c);
                 c.status_latched = true;
             }
             if ((value & kReadBackNoCount) == 0) {
-                latch_count(c);
+                latch_count(c, status);
             }
         }
         return;
     }
     Counter& c = counters[selected];
     if (access_of(value) == Access::latch) {
-        latch_count(c);
+        latch_count(c, false);
         return;
     }
     // A control word resets all control logic at once; no CLK pulse is needed.

@@ -95,10 +95,10 @@ struct I82c54 {
     uint64_t event_t = kNever;  ///< what next_event_t() returns
 
     uint64_t unprogrammed_access_count = 0;  ///< counter read or written before its control word
-    uint64_t undefined_read_count = 0;       ///< count read before it was loaded
-    uint64_t live_read_count = 0;            ///< count read without latch: two bytes may not match
-    uint64_t illegal_count_count = 0;        ///< 1 in mode 2 or 3; BCD digits above 9
-    uint64_t lost_latch_count = 0;           ///< latched again before the first was read
+    uint64_t undefined_read_count = 0;  ///< count read before it was loaded, status not latched
+    uint64_t live_read_count = 0;       ///< count read without latch: two bytes may not match
+    uint64_t illegal_count_count = 0;   ///< 1 in mode 2 or 3; BCD digits above 9
+    uint64_t lost_latch_count = 0;      ///< latched again before the first was read
 
     bool operator==(const I82c54&) const = default;
 
@@ -106,7 +106,7 @@ private:
     void write_control(uint8_t value);
     void write_count(Counter& counter, uint8_t value);
     void take_count(Counter& counter, uint16_t bits);
-    void latch_count(Counter& counter);
+    void latch_count(Counter& counter, bool status_tells);
     void find_event();
 };
 

@@ -36,6 +36,7 @@ template <unsigned kIndex>
 constexpr auto kPpi = [](const BoardState& state) -> const auto& { return state.ppis[kIndex]; };
 constexpr auto kAnalog = [](const BoardState& state) -> const auto& { return state.analog; };
 constexpr auto kMotors = [](const BoardState& state) -> const auto& { return state.motors; };
+constexpr auto kPresence = [](const BoardState& state) -> const auto& { return state.presence; };
 constexpr auto kEeprom = [](const BoardState& state) -> const auto& { return state.eeprom; };
 constexpr auto kRange = [](const BoardState& state) -> const auto& { return state.range; };
 constexpr auto kWatchdog = [](const BoardState& state) -> const auto& { return state.watchdog; };
@@ -49,6 +50,7 @@ constexpr std::array kParts = {
     part<kPpi<1>>("ppi-b", "82C55A at 24H: range module, detectors"),
     part<kAnalog>("analog", "AD574A at 28H, multiplexer, sample-and-hold"),
     part<kMotors>("motors", "motor latches at 30H"),
+    part<kPresence>("presence", "74HC244 at 2CH: which tachometers are plugged in"),
     part<kEeprom>("eeprom", "28C256: program and tables"),
     part<kRange>("range", "range module behind ppi-b"),
     part<kWatchdog>("watchdog", "one-shot on SOD"),

@@ -108,6 +108,11 @@ void tach(Console& console, Arguments& arguments) {
         arguments.expect_end();
         return schedule(console, Stimulus::Kind::tach_forward, wheel, forward ? 1 : 0);
     }
+    const bool in = arguments.take("in");
+    if (in || arguments.take("out")) {
+        arguments.expect_end();
+        return schedule(console, Stimulus::Kind::tach_connected, wheel, in ? 1 : 0);
+    }
     int64_t count = 1;
     uint64_t period_t = kPulsePeriodT;
     if (!arguments.empty()) count = console.take_value(arguments, "PULSES", 1, kPulsesMax);
@@ -207,10 +212,10 @@ std::vector<Command> stimulus_commands() {
         {"sensor", "", "sensor [NAME|INDEX uv|counts VALUE]",
          "voltage at an input of the multiplexer, or list all",
          "  sensor\n  sensor pitch counts 2048\n  sensor 12 uv 1500000\n", sensor, true},
-        {"tach", "", "tach WHEEL [PULSES [PERIOD_T]] | tach WHEEL forward|backward",
-         "tachometer pulses of a wheel, or its direction",
+        {"tach", "", "tach WHEEL [PULSES [PERIOD_T]] | tach WHEEL forward|backward|in|out",
+         "tachometer pulses of a wheel, its direction, or its plug",
          "Pulses come every 1 ms (3072 T) when no period is given, the first one at once.\n"
-         "  tach 0 10\n  tach 5 100 614\n  tach 5 backward\n",
+         "  tach 0 10\n  tach 5 100 614\n  tach 5 backward\n  tach 3 out\n",
          tach, true},
         {"detectors", "", "detectors BITS", "the eight laser detector bits",
          "  detectors 00000101B\n", detectors, true},

@@ -36,11 +36,13 @@ TEST_F(BoardBusTest, PortsThatNobodyAnswersReadOpenBusAndAreViolations) {
         return port == 0x08 || port == 0x09 || (port >= 0x10 && port <= 0x1B) ||
                (port >= 0x20 && port <= 0x29) || (port >= 0x30 && port <= 0x3B);
     };
+    const auto read_only = [](unsigned port) { return port == 0x2C; };
     for (unsigned port = 0; port < 256; ++port) {
         const uint64_t before = state.violation_count;
         const uint8_t value = in(static_cast<uint8_t>(port));
-        EXPECT_EQ(state.violation_count - before, answered(port) ? 0U : 1U) << port;
-        if (!answered(port)) {
+        const bool readable = answered(port) || read_only(port);
+        EXPECT_EQ(state.violation_count - before, readable ? 0U : 1U) << port;
+        if (!readable) {
             EXPECT_EQ(value, 0xFF) << port;
             EXPECT_EQ(state.last_violation.kind, Violation::Kind::unmapped_in);
             EXPECT_EQ(state.last_violation.address, port);
@@ -123,6 +125,17 @@ TEST_F(BoardBusTest, TachometersCountDownTheirOwnCounter) {
         // The first pulse loads the count, each later one takes 1 off.
         EXPECT_EQ(high << 8 | low, 0x10000U - (10U + wheel)) << int{wheel};
     }
+}
+
+TEST_F(BoardBusTest, PresenceBufferTellsWhichTachometersArePluggedIn) {
+    EXPECT_EQ(in(0x2C), 0xFF);
+    apply(Stimulus::Kind::tach_connected, 1, 0);
+    apply(Stimulus::Kind::tach_connected, 4, 0);
+    EXPECT_EQ(in(0x2C), 0xED);
+    bus.reset(t);
+    EXPECT_EQ(in(0x2C), 0xED);
+    apply(Stimulus::Kind::tach_connected, 1, 1);
+    EXPECT_EQ(in(0x2C), 0xEF);
 }
 
 TEST_F(BoardBusTest, DirectionBitsDetectorsAndTrapCauseAreRead) {

@@ -226,6 +226,16 @@ TEST(I82c54Undefined, CountBeforeItsLoadReadsThePattern) {
     EXPECT_EQ(timer.undefined_read_count, 2U);
 }
 
+// With the status in the same command software sees the null count bit and drops the count.
+TEST(I82c54Undefined, CountWithItsStatusIsNoMistake) {
+    I82c54 timer = timer_in_mode(1, kBoth);
+    write_two(timer, 0, 7, 20);
+    timer.write(I82c54::kControlAddress, 0xC2, 30);
+    EXPECT_EQ(timer.read(0, 31) & 0x40, 0x40);
+    EXPECT_EQ(read_two(timer, 0, 32), I82c54::kUndefinedCount);
+    EXPECT_EQ(timer.undefined_read_count, 0U);
+}
+
 TEST(I82c54Undefined, ResetIsPowerUpAndKeepsTheWires) {
     I82c54 timer = timer_in_mode(2);
     timer.set_gate(0, false, 15);

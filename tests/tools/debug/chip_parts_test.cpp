@@ -18,7 +18,7 @@ TEST(ChipParts, HaveDifferentNamesAndSomethingToShow) {
         EXPECT_FALSE(part.properties(state).empty()) << part.name;
         EXPECT_TRUE(part.equal(state, state)) << part.name;
     }
-    EXPECT_EQ(names.size(), 11u);
+    EXPECT_EQ(names.size(), 12u);
 }
 
 TEST(ChipParts, ADifferenceIsSeenInTheChipThatHasIt) {

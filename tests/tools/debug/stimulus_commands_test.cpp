@@ -73,6 +73,10 @@ TEST(StimulusCommands, TachPulsesAreClocksOfTheirCounter) {
     EXPECT_EQ(bench.session.board.state.ppis[0].outside[1] & 0x20, 0);
     bench("tach 5 forward");
     EXPECT_EQ(bench.session.board.state.ppis[0].outside[1] & 0x20, 0x20);
+    bench("tach 2 out");
+    EXPECT_EQ(bench.session.board.state.presence.lines, 0xFB);
+    bench("tach 2 in");
+    EXPECT_EQ(bench.session.board.state.presence.lines, 0xFF);
     EXPECT_THAT(bench("tach 6"), StartsWith("refused: "));
 }
 

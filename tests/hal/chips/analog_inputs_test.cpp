@@ -1,0 +1,137 @@
+// analog_inputs_test.cpp - sums and single conversions of a channel. Accesses by hand from the
+// docstrings and docs/chips/ad574a.md; values and faults on the models of the analogue chain.
+#include "hal/chips/analog_inputs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/hal/chips/parts.hpp"
+
+namespace {
+
+using hal_test::Recorded;
+using hal_test::Script;
+using hal_test::SimBoard;
+using hal_test::Simulated;
+using hal_test::Stimulus;
+using host_sim::SimBus;
+
+// Three reads of a port are the time that multiplexer and amplifier need.
+const std::string kSettle = "<21 <21 <21";
+
+TEST(AnalogInputsAccesses, SumSelectsOnceAndLetsInterruptsInBetweenConversions) {
+    Script bus;
+    bus.in(0x21, {0x00});
+    bus.in(0x28, {0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x81, 0x81, 0x81, 0x81, 0x81,
+                  0x81, 0x81, 0x81});
+    bus.in(0x29, {0x10, 0x20, 0x30, 0x40, 0x50, 0x60, 0x70, 0x80, 0x90, 0xA0, 0xB0, 0xC0, 0xD0,
+                  0xE0, 0xF0, 0x00});
+    // 16 * (8 * 80h + 8 * 81h) + 1 + 2 + ... + 15
+    EXPECT_EQ(Recorded::AnalogInputs::sum_of_16(5), 16 * (8 * 0x80 + 8 * 0x81) + 120);
+    std::string expected = "20=05 " + kSettle + " DI 28=00";
+    const char* lows[] = {"10", "20", "30", "40", "50", "60", "70", "80",
+                          "90", "A0", "B0", "C0", "D0", "E0", "F0"};
+    for (const char* low : lows) {  // what is written to start does not matter: the byte at hand
+        expected += std::string(" <21 <28 <29 LET 28=") + low + " <21";
+    }
+    EXPECT_EQ(bus.accesses(), expected + " <21 <28 <29 EI");
+}
+
+TEST(AnalogInputsAccesses, SumOfADeadConverterIsAbsentAndInterruptsAreEnabled) {
+    Script bus;
+    bus.in(0x21, {0x40});
+    EXPECT_EQ(Recorded::AnalogInputs::sum_of_16(0), hal::kAdcAbsent);
+    std::string expected = "20=00 " + kSettle + " DI 28=00";
+    for (unsigned i = 0; i < Recorded::Adc::kPollsMax; ++i) expected += " <21";
+    EXPECT_EQ(bus.accesses(), expected + " EI");
+}
+
+TEST(AnalogInputsAccesses, ConvertPutsTheMultiplexerBackAndLeavesInterruptsAlone) {
+    Script bus;
+    bus.in(0x20, {0x0B});
+    bus.in(0x21, {0x00, 0x00, 0x00, 0x40, 0x40, 0x00});
+    bus.in(0x28, {0xAB});
+    bus.in(0x29, {0xC0});
+    EXPECT_EQ(Recorded::AnalogInputs::convert(6), 0xABC0);
+    EXPECT_EQ(bus.accesses(), "<20 20=06 " + kSettle + " 28=00 <21 <21 <21 <28 <29 20=0B");
+}
+
+TEST(AnalogInputsAccesses, ConvertOfADeadConverterIsAbsentAndPutsTheMultiplexerBack) {
+    Script bus;
+    bus.in(0x20, {0x0B});
+    bus.in(0x21, {0x40});
+    EXPECT_EQ(Recorded::AnalogInputs::convert(6), hal::kAdcAbsent);
+    EXPECT_TRUE(bus.accesses().ends_with(" <21 20=0B"));
+}
+
+class AnalogInputsOnTheModel : public testing::Test {
+protected:
+    void SetUp() override { Simulated::PpiA::set_mode<hal::rb85::kPpiAMode>(); }
+    void set(uint8_t channel, uint16_t count) {  // the voltage in the middle of the code
+        const int64_t uv = int64_t{count} * 10'000'000 / 4096 - 5'000'000;
+        board.apply(Stimulus::Kind::sensor, channel, static_cast<int32_t>(uv));
+    }
+    void expect_no_misuse() const {
+        EXPECT_EQ(board.state.analog.unsettled_count, 0U);
+        EXPECT_EQ(board.state.analog.adc.busy_start_count, 0U);
+        EXPECT_EQ(board.state.analog.adc.busy_read_count, 0U);
+        EXPECT_EQ(board.state.analog.amplifier.early_hold_count, 0U);
+        EXPECT_EQ(board.state.violation_count, 0U);
+    }
+
+    SimBoard board;
+};
+
+TEST_F(AnalogInputsOnTheModel, EveryChannelIsItsSumExactly) {
+    for (uint8_t channel = 0; channel < 16; ++channel) {
+        set(channel, static_cast<uint16_t>(channel * 273));  // 0 to 4095
+    }
+    for (uint8_t channel = 0; channel < 16; ++channel) {
+        EXPECT_EQ(Simulated::AnalogInputs::sum_of_16(channel), channel * 273 * 16);
+        EXPECT_EQ(Simulated::AnalogInputs::convert(15 - channel), (15 - channel) * 273 * 16);
+    }
+    EXPECT_EQ(board.state.analog.adc.conversion_count, 16U * 17U);
+    expect_no_misuse();
+}
+
+// A handler's conversions, at every place where interrupts are let in, do not change the sum.
+TEST_F(AnalogInputsOnTheModel, AHandlerMayConvertBetweenConversions) {
+    set(2, 1000);
+    set(9, 3777);
+    unsigned handled = 0;
+    board.handler = [&](host_sim::Interrupt) {
+        EXPECT_EQ(Simulated::AnalogInputs::convert(9), 3777 * 16);
+        board.elapse(44);  // POP of four pairs, EI and RET: the way out of a handler
+        ++handled;
+    };
+    using Timer = Simulated::TimerA;
+    SimBus::sim(0x1B);
+    SimBus::enable_interrupts();
+    unsigned before = 0;
+    unsigned most = 0;
+    for (uint16_t period = 1500; period < 2600; period += 7) {
+        Timer::start<0, Timer::Mode::rate_generator>(period);
+        EXPECT_EQ(Simulated::AnalogInputs::sum_of_16(2), 1000 * 16) << period;
+        most = std::max(most, handled - before);
+        before = handled;
+    }
+    EXPECT_GT(handled, 150U);
+    expect_no_misuse();
+}
+
+TEST_F(AnalogInputsOnTheModel, AConverterThatNeverEndsIsAbsentUntilItWorksAgain) {
+    set(3, 2000);
+    const uint64_t good_t = board.state.analog.adc.conversion12_t;
+    board.state.analog.adc.conversion12_t = 100'000'000;
+    EXPECT_EQ(Simulated::AnalogInputs::sum_of_16(3), hal::kAdcAbsent);
+    EXPECT_EQ(Simulated::AnalogInputs::convert(3), hal::kAdcAbsent);
+    EXPECT_TRUE(board.state.cpu.interrupt_enable);
+    board.state.analog.adc.conversion12_t = good_t;
+    board.state.analog.adc.duration_t = 0;
+    board.elapse(1000);
+    EXPECT_EQ(Simulated::AnalogInputs::sum_of_16(3), 2000 * 16);
+    EXPECT_EQ(Simulated::AnalogInputs::convert(3), 2000 * 16);
+}
+
+}  // namespace
