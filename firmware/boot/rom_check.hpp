@@ -7,15 +7,26 @@
 
 namespace rover {
 
+/// CRC of up to 256 bytes more. @param count  [1, 256]: 256 is given as 0
+template <class Byte>
+[[gnu::noinline]] uint16_t block_crc(uint16_t crc, const Byte* from, uint8_t count) {
+    do {
+        crc = crc16_add(crc, uint8_t{*from++});
+    } while (--count != 0);
+    return crc;
+}
+
 /// CRC of ROM bytes, going on from `crc`.
-/// @param alive  called before the first byte and then every 256 bytes
+/// @param alive  called before every 256 bytes
 template <class Byte, class Alive>
 [[gnu::noinline]] uint16_t rom_crc(uint16_t crc, const Byte* from, uint16_t count, Alive alive) {
-    uint8_t until_alive = 1;
-    for (; count != 0; count = sub_wrap(count, uint16_t{1})) {
-        until_alive = sub_wrap(until_alive, uint8_t{1});
-        if (until_alive == 0) alive();
-        crc = crc16_add(crc, uint8_t{*from++});
+    const uint8_t odd = narrow_wrap_u8(count);
+    if (odd != 0) crc = block_crc(crc, from, odd);
+    from += odd;
+    for (uint8_t blocks = narrow_wrap_u8(shift_floor<8>(count)); blocks != 0; --blocks) {
+        alive();
+        crc = block_crc(crc, from, 0);
+        from += 256;
     }
     return crc;
 }
