@@ -85,7 +85,7 @@ void tell(const Request& request, const std::string& text) {
 
 [[noreturn]] void fail_to_start(const std::string& program, int error) {
     throw Failed(
-        fmt::format("{}: cannot be started: {}: install clang-19 (tools/setup test), or "
+        fmt::format("{}: cannot be started: {}: install clang-19 (tools/setup run), or "
                     "set I85CC_CLANG to its path",
                     program, std::strerror(error)));
 }

@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/bind/host_target.hpp"
 #include "tools/rover85/calibrate_command.hpp"
 #include "tools/rover85/command_errors.hpp"
 #include "tools/rover85/debug_command.hpp"
+#include "tools/rover85/flash_command.hpp"
+#include "tools/rover85/image_beside.hpp"
 #include "tools/rover85/import_command.hpp"
 #include "tools/rover85/main_job_command.hpp"
 #include "tools/rover85/recover_command.hpp"
@@ -21,7 +22,7 @@
 int main(int argc, char** argv) {
     CLI::App app("rover85: slip and sinkage firmware of a microrover, driven on the host.");
     app.name("rover85");
-    app.set_version_flag("--version", host_sim::host_image_identity());
+    app.set_version_flag("--version", [] { return version_text(); });
     app.require_subcommand(1);
     app.footer(
         "Examples:\n"
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
     add_import_command(app, exit_code);
     add_report_command(app, exit_code);
     add_debug_command(app, exit_code);
+    add_flash_command(app, exit_code);
     add_main_job_command(app, exit_code);
     try {
         app.parse(argc, argv);

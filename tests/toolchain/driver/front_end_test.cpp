@@ -135,7 +135,7 @@ TEST(FrontEnd, SaysThatClangIsMissing) {
     const Request request = request_for("int a;");
     EXPECT_EQ(failure_of([&] { (void)run_front_end(request, work.path()); }),
               "no-such-clang: cannot be started: No such file or directory: install clang-19 "
-              "(tools/setup test), or set I85CC_CLANG to its path");
+              "(tools/setup run), or set I85CC_CLANG to its path");
 }
 
 TEST(FrontEnd, TakesTheClangThatIsChosen) {
