@@ -91,8 +91,8 @@ private:
         Bus::template out<kSteer + 3>(0);
     }
 
-    static inline uint8_t backward_ = 0;  ///< the direction registers, which cannot be read
-    static inline uint8_t right_ = 0;
+    static inline volatile uint8_t backward_ = 0;  ///< direction registers: they cannot be read
+    static inline volatile uint8_t right_ = 0;
 };
 
 }  // namespace hal
