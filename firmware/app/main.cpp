@@ -30,7 +30,7 @@ namespace {
 using Bus = hal::I8085;
 using Parts = hal::Rb85Parts<Bus>;
 
-// SIM: bit 3 sets the masks. RST 7.5 and 6.5 are always open; a transmitter without work masks 5.5.
+// SIM: bit 3 sets the masks. RST 7.5 and 6.5 are always open, 5.5 while there is something to send.
 constexpr uint8_t kOpenAll = 0x08;
 constexpr uint8_t kMaskTransmit = 0x09;
 constexpr uint8_t kForgetTick = 0x10;  // a tick that came before
@@ -39,7 +39,8 @@ constexpr uint8_t kForgetTick = 0x10;  // a tick that came before
 
 WheelCount wheels[hal::kWheelCount];
 ByteRing<64> received;
-ByteRing<256> to_send;
+alignas(256) PageRing to_send;
+uint8_t ticks_to_count;  // the tick's
 volatile uint16_t receive_count;
 volatile uint16_t receive_errors;
 volatile uint8_t trap_count;
@@ -108,15 +109,12 @@ I85_INTERRUPT(I85_RST_75) void on_tick() {
     rover_tick_count = add_wrap(uint16_t{rover_tick_count}, uint16_t{1});
     volatile uint8_t& quiet = battery_area()[battery::kQuietTicks];
     if (quiet != 255) quiet = add_wrap(uint8_t{quiet}, uint8_t{1});
+    ticks_to_count = sub_wrap(ticks_to_count, uint8_t{1});
+    if (ticks_to_count != 0) return;
+    ticks_to_count = kTicksPerCount;
     const uint8_t forward = Parts::PpiA::read_b();
-    Parts::TimerB::latch_pulses();
-    Parts::TimerC::latch_pulses();
-    count_wheel(wheels[0], Parts::TimerB::pulses<0>(), bit_and(forward, uint8_t{1}) != 0);
-    count_wheel(wheels[1], Parts::TimerB::pulses<1>(), bit_and(forward, uint8_t{2}) != 0);
-    count_wheel(wheels[2], Parts::TimerB::pulses<2>(), bit_and(forward, uint8_t{4}) != 0);
-    count_wheel(wheels[3], Parts::TimerC::pulses<0>(), bit_and(forward, uint8_t{8}) != 0);
-    count_wheel(wheels[4], Parts::TimerC::pulses<1>(), bit_and(forward, uint8_t{16}) != 0);
-    count_wheel(wheels[5], Parts::TimerC::pulses<2>(), bit_and(forward, uint8_t{32}) != 0);
+    read_counters<Parts>(wheels);
+    count_wheels(wheels, forward);
 }
 
 /// A character has come. One with a wrong frame is counted and not taken; an overrun has cost the
@@ -133,13 +131,11 @@ I85_INTERRUPT(I85_RST_65) void on_receive() {
     received.push(byte);
 }
 
-/// The transmitter takes a character.
+/// The transmitter takes a character. @pre there is one, or the interrupt is masked
 I85_INTERRUPT(I85_RST_55) void on_transmit() {
-    if (to_send.empty()) {
-        Bus::sim(kMaskTransmit);
-    } else {
-        Parts::Usart::write(to_send.pop());
-    }
+    bool is_last = false;
+    Parts::Usart::write(to_send.pop(is_last));
+    if (is_last) Bus::sim(kMaskTransmit);
 }
 
 /// Undervoltage or bumper: motors off, latched until the next reset.
@@ -244,7 +240,11 @@ bool start_controller() {
         hal::rb85::kTickCount);
     battery_area()[battery::kQuietTicks] = 0;
     Parts::Watchdog::toggle();
-    Bus::sim(bit_or(kOpenAll, kForgetTick));
+    read_counters<Parts>(wheels);
+    for (WheelCount& wheel : wheels) wheel.last = wheel.now;
+    ticks_to_count = kTicksPerCount;
+    to_send.begin();
+    Bus::sim(bit_or(kMaskTransmit, kForgetTick));
     Bus::enable_interrupts();
 }
 
@@ -364,6 +364,13 @@ void answer_frame() {
     queue_frame(DownlinkKind::acknowledge, payload, sizeof payload);
 }
 
+/// Lets the transmitter take what has been queued.
+void start_transmitter() {
+    Bus::disable_interrupts();
+    if (!to_send.empty()) Bus::sim(kOpenAll);
+    Bus::enable_interrupts();
+}
+
 /// Frames among the bytes of this step.
 [[gnu::noinline]] void rover_link() {
     if (inputs.command_size == 0) uplink.quiet();
@@ -373,7 +380,7 @@ void answer_frame() {
     const uint16_t lost = bit_or(bit_or(read_shared(received.dropped), read_shared(receive_errors)),
                                  status.frames_dropped);
     if (lost != 0) set_fault(kFaultLinkLost);
-    Bus::sim(kOpenAll);  // the transmitter has work
+    start_transmitter();
 }
 
 [[gnu::noinline]] void rover_checkpoint() {

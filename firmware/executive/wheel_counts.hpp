@@ -1,6 +1,7 @@
 // wheel_counts.hpp - tachometer pulses with direction: counted by the tick, read by the step.
 // Depends on   hal/io.hpp, core/arith.hpp.
-// Direction    pulses of a tick count in the direction that the wheel has at its end.
+// Counters     started by I82c54::start_pulses(): loaded by their first pulse, then downwards.
+// Direction    pulses count in the direction that the wheel has when they are read: 20 Hz.
 // Design note  docs/design/executive.md     Tests  tests/firmware/executive/wheel_counts_test.cpp
 #pragma once
 
@@ -10,18 +11,46 @@
 namespace rover {
 
 struct WheelCount {
-    uint16_t pulses = 0;          ///< of the counter at the last tick; the tick's
+    uint8_t now = 0;              ///< low byte of its counter, which counts down; the tick's
+    uint8_t last = 0;             ///< the same, when it was booked; the tick's
+    bool moved = false;           ///< the counter has been loaded by its first pulse; the tick's
     volatile uint16_t count = 0;  ///< forward counts up, modulo 2^16
 };
 
-/// One wheel, one tick. @param pulses  of the counter since it was started, modulo 2^16
-/// @context  the tick
-inline void count_wheel(WheelCount& wheel, uint16_t pulses, bool forward) {
-    const uint16_t came = sub_wrap(pulses, wheel.pulses);
-    if (came == 0) return;
-    wheel.pulses = pulses;
+/// Low bytes of the six counters, of one moment. Less than 256 pulses come in between.
+template <class Parts>
+void read_counters(WheelCount (&wheels)[hal::kWheelCount]) {
+    Parts::TimerB::latch_counts();
+    Parts::TimerC::latch_counts();
+    wheels[0].now = narrow_wrap_u8(Parts::TimerB::template latched_count<0>());
+    wheels[1].now = narrow_wrap_u8(Parts::TimerB::template latched_count<1>());
+    wheels[2].now = narrow_wrap_u8(Parts::TimerB::template latched_count<2>());
+    wheels[3].now = narrow_wrap_u8(Parts::TimerC::template latched_count<0>());
+    wheels[4].now = narrow_wrap_u8(Parts::TimerC::template latched_count<1>());
+    wheels[5].now = narrow_wrap_u8(Parts::TimerC::template latched_count<2>());
+}
+
+/// Books the pulses of one wheel, of which there are some. A counter keeps what it held until its
+/// first pulse loads it; from then on it is minus the number of pulses, so the first change is
+/// counted from 0.
+[[gnu::noinline]] inline void book_pulses(WheelCount& wheel, uint8_t forward) {
+    const uint8_t from = wheel.moved ? wheel.last : uint8_t{0};
+    const uint8_t now = wheel.now;
+    wheel.moved = true;
+    wheel.last = now;
+    const uint16_t pulses = widen_u16(sub_wrap(from, now));
+    const uint16_t count = wheel.count;
     wheel.count =
-        forward ? add_wrap(uint16_t{wheel.count}, came) : sub_wrap(uint16_t{wheel.count}, came);
+        bit_and(forward, uint8_t{1}) != 0 ? add_wrap(count, pulses) : sub_wrap(count, pulses);
+}
+
+/// All wheels, behind read_counters(). @param forward  bit w: wheel w turns forward
+/// @context  the tick
+inline void count_wheels(WheelCount (&wheels)[hal::kWheelCount], uint8_t forward) {
+    for (WheelCount& wheel : wheels) {
+        if (wheel.now != wheel.last) book_pulses(wheel, forward);
+        forward = shift_floor<1>(forward);
+    }
 }
 
 /// Reads tick and counts of one moment: again when a tick has come in between. The second reading

@@ -1,5 +1,6 @@
 // byte_ring.hpp - bytes between an interrupt and the main line: one producer, one consumer.
 // Depends on   core/arith.hpp.
+// Two kinds    ByteRing for anything; PageRing where the consumer's T-states count.
 // Safe         without disabling interrupts: each index has one writer and is one byte, so it is
 //              read and written at once; a byte is stored before the index that shows it.
 // Bounds       kSize bytes, of which 256 hold 255.
@@ -44,6 +45,43 @@ struct ByteRing {
         const uint8_t place = taken;
         const uint8_t byte = bytes[bit_and(place, kMask)];
         taken = add_wrap(place, uint8_t{1});
+        return byte;
+    }
+};
+
+/// The ring towards an interrupt that must be quick: 256 bytes at a page, so that the address of a
+/// byte is the page and the index, and one compare tells whether more is there.
+/// @pre  the object is aligned to 256, and begin() came first
+struct PageRing {
+    volatile uint8_t bytes[256] = {};
+    volatile uint8_t* next = nullptr;  ///< where the consumer takes; its low byte is the index
+    volatile uint8_t written = 0;      ///< index; the producer's
+
+    void begin() { next = bytes; }
+
+    /// Bytes that it can take. Room for one stays free, or full would look like empty.
+    [[nodiscard]] uint8_t room() const {
+        const uint8_t taken = *reinterpret_cast<const volatile uint8_t*>(&next);
+        return sub_wrap(sub_wrap(taken, uint8_t{written}), uint8_t{1});
+    }
+    [[nodiscard]] bool empty() const { return room() == 255; }
+
+    /// @pre      room() is not 0
+    /// @context  the producer alone
+    void push(uint8_t byte) {
+        bytes[written] = byte;
+        written = add_wrap(uint8_t{written}, uint8_t{1});
+    }
+
+    /// @pre      not empty
+    /// @return   by `is_last` whether it is empty now
+    /// @context  the consumer alone
+    uint8_t pop(bool& is_last) {
+        const volatile uint8_t* const place = next;
+        const uint8_t byte = *place;
+        const auto index = static_cast<uint8_t>(reinterpret_cast<uintptr_t>(place) + 1);
+        *reinterpret_cast<volatile uint8_t*>(&next) = index;  // little endian, here and there
+        is_last = index == written;
         return byte;
     }
 };

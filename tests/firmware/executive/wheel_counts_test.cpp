@@ -5,19 +5,51 @@
 
 namespace {
 
-TEST(CountWheel, ForwardCountsUpBackwardDownAcrossEveryWrap) {
-    rover::WheelCount wheel;
-    std::uint32_t pulses = 65000;
-    wheel.pulses = static_cast<std::uint16_t>(pulses);
-    std::int64_t expected = 0;
-    for (int i = 0; i < 2000; ++i) {
-        const std::uint32_t more = static_cast<std::uint32_t>(i * 7 % 90);
-        const bool forward = i / 100 % 2 == 1;
-        pulses += more;
-        expected += forward ? more : -static_cast<std::int64_t>(more);
-        rover::count_wheel(wheel, static_cast<std::uint16_t>(pulses), forward);
-        ASSERT_EQ(wheel.count, static_cast<std::uint16_t>(expected)) << i;
+/// Counters as they read: garbage until the first pulse, then minus the number of pulses.
+struct Counters {
+    std::uint32_t pulses[6] = {};
+    std::uint8_t garbage = 0x3C;
+
+    [[nodiscard]] std::uint8_t low(std::size_t wheel) const {
+        return pulses[wheel] == 0 ? garbage : static_cast<std::uint8_t>(0U - pulses[wheel]);
     }
+};
+
+TEST(CountWheels, ForwardCountsUpBackwardDownAcrossEveryWrap) {
+    for (const unsigned garbage : {0U, 1U, 0x3CU, 0xFFU}) {
+        Counters counters;
+        counters.garbage = static_cast<std::uint8_t>(garbage);
+        rover::WheelCount wheels[6];
+        for (auto& wheel : wheels) wheel.now = wheel.last = counters.garbage;
+        std::int64_t expected[6] = {};
+        for (unsigned reading = 0; reading < 4000; ++reading) {
+            std::uint8_t forward = 0;
+            for (std::size_t w = 0; w < 6; ++w) {
+                const std::uint32_t more = (reading * 7 + w * 31) % (40 + 43 * w);
+                const bool ahead = (reading / 100 + w) % 3 != 1;
+                counters.pulses[w] += more;
+                expected[w] += ahead ? more : -static_cast<std::int64_t>(more);
+                if (ahead) forward = static_cast<std::uint8_t>(forward | 1U << w);
+                wheels[w].now = counters.low(w);
+            }
+            rover::count_wheels(wheels, forward);
+            for (std::size_t w = 0; w < 6; ++w) {
+                ASSERT_EQ(wheels[w].count, static_cast<std::uint16_t>(expected[w]))
+                    << "garbage " << garbage << " wheel " << w << " reading " << reading;
+            }
+        }
+    }
+}
+
+// The first pulse loads FFh; a counter that held FFh shows it with the second.
+TEST(CountWheels, NoPulseIsLostWhenTheCounterHeldWhatItIsLoadedWith) {
+    rover::WheelCount wheels[6];
+    wheels[2].now = wheels[2].last = 0xFF;
+    rover::count_wheels(wheels, 0x3F);
+    EXPECT_EQ(wheels[2].count, 0);
+    wheels[2].now = 0xFE;
+    rover::count_wheels(wheels, 0x3F);
+    EXPECT_EQ(wheels[2].count, 2);
 }
 
 TEST(ReadWheels, CopiesTickAndCounts) {

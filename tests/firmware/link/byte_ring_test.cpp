@@ -60,6 +60,28 @@ TYPED_TEST(ByteRingTest, IsAQueueUnderRandomUse) {
     }
 }
 
+TEST(PageRing, IsAQueueOf255BytesAtEveryPhase) {
+    alignas(256) static rover::PageRing ring;
+    ring.begin();
+    std::mt19937 random(2);
+    std::deque<std::uint8_t> model;
+    for (int i = 0; i < 200'000; ++i) {
+        ASSERT_EQ(ring.room(), 255 - model.size());
+        ASSERT_EQ(ring.empty(), model.empty());
+        const bool fill = random() % 512 < 256 + (i / 2000 % 2 == 0 ? 60U : -60U);
+        if (fill && ring.room() != 0) {
+            const auto byte = static_cast<std::uint8_t>(random());
+            ring.push(byte);
+            model.push_back(byte);
+        } else if (!fill && !ring.empty()) {
+            bool is_last = false;
+            ASSERT_EQ(ring.pop(is_last), model.front());
+            model.pop_front();
+            ASSERT_EQ(is_last, model.empty());
+        }
+    }
+}
+
 // An interrupt between any two steps of the other side: every byte that push() accepted comes out,
 // in order. The consumer's steps are its single accesses, spelled out.
 TEST(ByteRing, AProducerMayInterruptTheConsumerAnywhere) {
