@@ -25,11 +25,12 @@ TEST(CountWheels, ForwardCountsUpBackwardDownAcrossEveryWrap) {
         for (unsigned reading = 0; reading < 4000; ++reading) {
             std::uint8_t forward = 0;
             for (std::size_t w = 0; w < 6; ++w) {
-                const std::uint32_t more = (reading * 7 + w * 31) % (40 + 43 * w);
+                const auto more =
+                    static_cast<std::uint32_t>((reading * 7 + w * 31) % (40 + 43 * w));
                 const bool ahead = (reading / 100 + w) % 3 != 1;
                 counters.pulses[w] += more;
                 expected[w] += ahead ? more : -static_cast<std::int64_t>(more);
-                if (ahead) forward = static_cast<std::uint8_t>(forward | 1U << w);
+                if (ahead) forward = static_cast<std::uint8_t>(forward | (1U << w));
                 wheels[w].now = counters.low(w);
             }
             rover::count_wheels(wheels, forward);
