@@ -62,16 +62,16 @@ struct I82c54 {
     }
 
     // -- Counting pulses from outside ------------------------------------------------------------
-    // Mode 0 with the count FFFFh: pulse 1 loads FFFFh, which is -1, pulse n leaves -n, and behind
-    // 0 mode 0 counts on from FFFFh. So the count is -n modulo 2^16 for ever, but undefined before
-    // the first pulse: the null count bit tells. (Mode 2 starts again from its count behind 1: with
-    // FFFFh it loses one pulse a turn.)
+    // Mode 0 with the count FFFEh, the complement of 1: pulse 1 loads it, pulse n leaves ~n, and
+    // behind 0 mode 0 counts on from FFFFh. So the complement of the count is n modulo 2^16 for
+    // ever. Before the first pulse the count is undefined: the null count bit tells. (Mode 2 starts
+    // again from its count behind 1, so it turns over modulo 2^16 only from 0.)
 
     /// Counts pulses from 0 on.
     /// @ref  "Mode Definitions", mode 0
     template <uint8_t kCounter>
     static void start_pulses() {
-        start<kCounter, Mode::terminal_count>(0xFFFF);
+        start<kCounter, Mode::terminal_count>(0xFFFE);
     }
 
     /// Latches what pulses() needs, of three counters at one moment. Then each pulses() once.
@@ -85,7 +85,7 @@ struct I82c54 {
         const uint8_t status = Bus::template in<kPort + kCounter>();  // latched status comes first
         const uint16_t count = latched_count<kCounter>();
         if ((status & kNullCount) != 0) return 0;
-        return static_cast<uint16_t>(0U - count);
+        return static_cast<uint16_t>(~count);
     }
 };
 

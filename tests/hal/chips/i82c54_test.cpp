@@ -53,8 +53,8 @@ TEST(I82c54Accesses, PulsesAreStatusThenCount) {
     Script bus;
     using TimerC = Recorded::TimerC;
     TimerC::start_pulses<2>();
-    EXPECT_EQ(bus.accesses(), "1B=B0 1A=FF 1A=FF");
-    bus.in(0x18, {0x30, 0xFE, 0xFF});  // loaded; FFFEh
+    EXPECT_EQ(bus.accesses(), "1B=B0 1A=FE 1A=FF");
+    bus.in(0x18, {0x30, 0xFD, 0xFF});  // loaded; the complement of 2
     bus.in(0x19, {0x70, 0xA5, 0xA5});  // null count
     TimerC::latch_pulses();
     EXPECT_EQ(TimerC::pulses<0>(), 2);

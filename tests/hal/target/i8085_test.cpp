@@ -221,7 +221,7 @@ TEST_F(PartsOnTheBoard, PulsesOfSixWheels) {
     for (unsigned wheel = 0; wheel < 6; ++wheel) {
         EXPECT_EQ(word("pulses", wheel), 1000 * wheel + 1);
     }
-    EXPECT_LE(cost_t["read_pulses"], 800U);
+    EXPECT_LE(cost_t["read_pulses"], 700U);
 }
 
 TEST_F(PartsOnTheBoard, RangeFrames) {
