@@ -11,34 +11,34 @@
 namespace rover {
 
 struct WheelCount {
-    uint8_t now = 0;              ///< low byte of its counter, which counts down; the tick's
-    uint8_t last = 0;             ///< the same, when it was booked; the tick's
+    uint16_t now = 0;             ///< its counter, which counts down; the tick's
+    uint16_t last = 0;            ///< the same, when it was booked; the tick's
     bool moved = false;           ///< the counter has been loaded by its first pulse; the tick's
     volatile uint16_t count = 0;  ///< forward counts up, modulo 2^16
 };
 
-/// Low bytes of the six counters, of one moment. Less than 256 pulses come in between.
+/// The six counters, of one moment.
 template <class Parts>
 void read_counters(WheelCount (&wheels)[hal::kWheelCount]) {
     Parts::TimerB::latch_counts();
     Parts::TimerC::latch_counts();
-    wheels[0].now = narrow_wrap_u8(Parts::TimerB::template latched_count<0>());
-    wheels[1].now = narrow_wrap_u8(Parts::TimerB::template latched_count<1>());
-    wheels[2].now = narrow_wrap_u8(Parts::TimerB::template latched_count<2>());
-    wheels[3].now = narrow_wrap_u8(Parts::TimerC::template latched_count<0>());
-    wheels[4].now = narrow_wrap_u8(Parts::TimerC::template latched_count<1>());
-    wheels[5].now = narrow_wrap_u8(Parts::TimerC::template latched_count<2>());
+    wheels[0].now = Parts::TimerB::template latched_count<0>();
+    wheels[1].now = Parts::TimerB::template latched_count<1>();
+    wheels[2].now = Parts::TimerB::template latched_count<2>();
+    wheels[3].now = Parts::TimerC::template latched_count<0>();
+    wheels[4].now = Parts::TimerC::template latched_count<1>();
+    wheels[5].now = Parts::TimerC::template latched_count<2>();
 }
 
 /// Books the pulses of one wheel, of which there are some. A counter keeps what it held until its
-/// first pulse loads it; from then on it is minus the number of pulses, so the first change is
-/// counted from 0.
+/// first pulse loads it; from then on it is the complement of the number of pulses, so the first
+/// change is counted from that of 0.
 [[gnu::noinline]] inline void book_pulses(WheelCount& wheel, uint8_t forward) {
-    const uint8_t from = wheel.moved ? wheel.last : uint8_t{0};
-    const uint8_t now = wheel.now;
+    const uint16_t from = wheel.moved ? wheel.last : uint16_t{0xFFFF};
+    const uint16_t now = wheel.now;
     wheel.moved = true;
     wheel.last = now;
-    const uint16_t pulses = widen_u16(sub_wrap(from, now));
+    const uint16_t pulses = sub_wrap(from, now);
     const uint16_t count = wheel.count;
     wheel.count =
         bit_and(forward, uint8_t{1}) != 0 ? add_wrap(count, pulses) : sub_wrap(count, pulses);
