@@ -21,11 +21,12 @@ struct AnalogInputs {
 
     /// Sum of 16 conversions.
     /// @param channel  multiplexer input, [0, 15]
-    /// @return   u16 Q4 counts, [0, 65520]; kAdcAbsent behind the first conversion without an end
+    /// @return   u16 Q4 counts, [0, 65520]; kAdcAbsent: the converter was busy, or a
+    ///           conversion had no end
     /// @context  task, interrupts enabled; disables them for one conversion at a time
     static uint16_t sum_of_16(uint8_t channel) {
         Ppi::write_a(channel);
-        settle();
+        if (!settles()) return kAdcAbsent;
         uint16_t high_sum = 0;
         uint8_t low_sum = 0;  // 16 times 15 at most
         uint8_t left = kConversions - 1;
@@ -56,12 +57,13 @@ struct AnalogInputs {
     static uint16_t convert(uint8_t channel) {
         const uint8_t before = Ppi::read_a();
         Ppi::write_a(channel);
-        settle();
-        Adc::start();
         uint16_t result = kAdcAbsent;
-        if (Adc::wait()) {
-            const uint8_t high = Adc::high();
-            result = static_cast<uint16_t>(high << 8 | Adc::low());
+        if (settles()) {
+            Adc::start();
+            if (Adc::wait()) {
+                const uint8_t high = Adc::high();
+                result = static_cast<uint16_t>(high << 8 | Adc::low());
+            }
         }
         Ppi::write_a(before);
         return result;
@@ -70,10 +72,11 @@ struct AnalogInputs {
 private:
     /// With the start behind it, 40 T from the multiplexer's address to the start: it settles in 9,
     /// the amplifier acquires in 31 (13 us together).
-    static void settle() {
+    /// @return  false: an old conversion still runs, which would pass for one of this channel
+    [[nodiscard]] static bool settles() {
         (void)Ppi::read_b();
         (void)Ppi::read_b();
-        (void)Ppi::read_b();
+        return !Adc::busy();
     }
 };
 

@@ -17,7 +17,8 @@ using hal_test::Simulated;
 using hal_test::Stimulus;
 using host_sim::SimBus;
 
-// Three reads of a port are the time that multiplexer and amplifier need.
+// Three reads of a port are the time that multiplexer and amplifier need; the third one looks at
+// STS.
 const std::string kSettle = "<21 <21 <21";
 
 TEST(AnalogInputsAccesses, SumSelectsOnceAndLetsInterruptsInBetweenConversions) {
@@ -40,7 +41,7 @@ TEST(AnalogInputsAccesses, SumSelectsOnceAndLetsInterruptsInBetweenConversions) 
 
 TEST(AnalogInputsAccesses, SumOfADeadConverterIsAbsentAndInterruptsAreEnabled) {
     Script bus;
-    bus.in(0x21, {0x40});
+    bus.in(0x21, {0x40, 0x40, 0x00, 0x40});
     EXPECT_EQ(Recorded::AnalogInputs::sum_of_16(0), hal::kAdcAbsent);
     std::string expected = "20=00 " + kSettle + " DI 28=00";
     for (unsigned i = 0; i < Recorded::Adc::kPollsMax; ++i) expected += " <21";
@@ -60,9 +61,19 @@ TEST(AnalogInputsAccesses, ConvertPutsTheMultiplexerBackAndLeavesInterruptsAlone
 TEST(AnalogInputsAccesses, ConvertOfADeadConverterIsAbsentAndPutsTheMultiplexerBack) {
     Script bus;
     bus.in(0x20, {0x0B});
-    bus.in(0x21, {0x40});
+    bus.in(0x21, {0x00, 0x00, 0x00, 0x40});
     EXPECT_EQ(Recorded::AnalogInputs::convert(6), hal::kAdcAbsent);
     EXPECT_TRUE(bus.accesses().ends_with(" <21 20=0B"));
+}
+
+TEST(AnalogInputsAccesses, NothingIsStartedWhileTheConverterIsBusy) {
+    Script bus;
+    bus.in(0x20, {0x0B});
+    bus.in(0x21, {0x00, 0x00, 0x40});
+    EXPECT_EQ(Recorded::AnalogInputs::sum_of_16(6), hal::kAdcAbsent);
+    EXPECT_EQ(bus.accesses(), "20=06 <21 <21 <21");
+    EXPECT_EQ(Recorded::AnalogInputs::convert(6), hal::kAdcAbsent);
+    EXPECT_EQ(bus.accesses(), "<20 20=06 <21 <21 <21 20=0B");
 }
 
 class AnalogInputsOnTheModel : public testing::Test {
@@ -118,6 +129,31 @@ TEST_F(AnalogInputsOnTheModel, AHandlerMayConvertBetweenConversions) {
     }
     EXPECT_GT(handled, 150U);
     expect_no_misuse();
+}
+
+// Too slow for the bound, and done while the next channel is read: no channel gets another's value.
+TEST_F(AnalogInputsOnTheModel, ASlowConverterGivesNoChannelTheValueOfAnother) {
+    for (uint8_t channel = 0; channel < 16; ++channel) {
+        set(channel, static_cast<uint16_t>(channel * 273));
+    }
+    for (uint64_t conversion_t = 100; conversion_t < 900; conversion_t += 3) {
+        board.state.analog.adc.conversion12_t = conversion_t;
+        unsigned absent = 0;
+        for (uint8_t channel = 0; channel < 16; ++channel) {
+            const uint16_t sum = Simulated::AnalogInputs::sum_of_16(channel);
+            const uint16_t one = Simulated::AnalogInputs::convert(channel ^ 1);
+            absent += sum == hal::kAdcAbsent ? 1U : 0U;
+            const auto is = [](uint16_t value, int count) {
+                return value == hal::kAdcAbsent || value == count * 16;
+            };
+            ASSERT_TRUE(is(sum, channel * 273)) << conversion_t << ": " << sum;
+            ASSERT_TRUE(is(one, (channel ^ 1) * 273)) << conversion_t << ": " << one;
+        }
+        ASSERT_EQ(absent, conversion_t <= 9 * 20 ? 0U : 16U) << conversion_t;
+        board.elapse(1000);
+    }
+    EXPECT_EQ(board.state.analog.adc.busy_start_count, 0U);
+    EXPECT_EQ(board.state.analog.adc.busy_read_count, 0U);
 }
 
 TEST_F(AnalogInputsOnTheModel, AConverterThatNeverEndsIsAbsentUntilItWorksAgain) {

@@ -189,23 +189,23 @@ TEST_F(PartsOnTheBoard, OneConversion) {
 }
 
 TEST_F(PartsOnTheBoard, ADeadConverterIsAbsent) {
-    const auto working = board.state.analog.adc;
-    board.state.analog.adc.conversion12_t = 1'000'000'000;
+    auto& chain = board.state.analog;
+    const auto working = chain;
+    chain.adc.conversion12_t = 1'000'000'000;
     cost_t["sum_of_16"] = 0;
     cost_t["convert"] = 0;
     run(sums);
     for (unsigned channel = 0; channel < 16; ++channel) {
         EXPECT_EQ(word("sums", channel), hal::kAdcAbsent);
     }
+    chain = working;
+    chain.adc.conversion12_t = 1'000'000'000;
     set("argument", 3);
     run(convert);
     EXPECT_EQ(word("result"), hal::kAdcAbsent);
     // The bound is at least twice a conversion and not more than four times.
     EXPECT_GE(cost_t["convert"], 216U);
     EXPECT_LE(cost_t["convert"], 600U);
-    board.state.analog.adc = working;
-    board.state.analog.unsettled_count = 0;  // started into a busy converter, as it had to
-    board.state.analog.amplifier.early_hold_count = 0;
 }
 
 TEST_F(PartsOnTheBoard, PulsesOfSixWheels) {
