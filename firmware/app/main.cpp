@@ -275,7 +275,7 @@ bool start_controller() {
 }
 
 [[gnu::noinline]] void rover_control() {
-    commands = controller_step(controller, inputs);
+    controller_step(controller, inputs, commands);
 }
 
 /// A TRAP at any place in here leaves the motors off.

@@ -29,6 +29,7 @@ inline constexpr uint8_t kSigmaPerRoughShift = 2;    ///< residual sigma = rough
 inline constexpr uint16_t kSigmaFloorQ8Mm = 26;      ///< 0.10 mm
 inline constexpr uint8_t kWidenPerCostQ8 = 179;      ///< 0.70
 inline constexpr uint16_t kWidenMaxQ8 = 768;         ///< 3.0
+inline constexpr int16_t kMisfitMaxQ4Mm = 2047;      ///< 128 mm: beyond, misfits are all the same
 inline constexpr uint16_t kCostCapQ6 = 1024;         ///< 16
 inline constexpr uint16_t kReacquireCostQ10 = 4096;  ///< 4: above it matching has failed
 inline constexpr uint16_t kTrackingCostQ10 = 1365;   ///< 4/3: below it lock is back
@@ -51,6 +52,7 @@ inline constexpr uint16_t kRoughMaxQ8Mm = 32767;    ///< 128 mm
 
 // -- Sinkage --------------------------------------------------------------------------------------
 inline constexpr uint8_t kSampleCount = 24;
+inline constexpr uint8_t kSampleRing = 32;       ///< power of two that holds them
 inline constexpr uint16_t kMergeQ6Bin = 51;      ///< 2.0 cm
 inline constexpr uint16_t kLookNoiseQ8Mm = 420;  ///< 0.82 x 2 mm
 inline constexpr uint8_t kLookPerRoughQ8 = 77;   ///< 0.30
@@ -75,7 +77,11 @@ inline constexpr uint16_t kUninformedVarianceQ12 = 870;  ///< 0.85 of the prior'
 inline constexpr uint16_t kSlipAlarmCostQ10 = 3840;  ///< 3.75
 inline constexpr int8_t kSlipAlarmPercent = 30;
 inline constexpr uint16_t kPercentPerMeanQ16 = 667;  ///< 100 / 9830 in Q16
-inline constexpr int16_t kSinkageAlarmQ4Mm = 480;    ///< 30 mm
+/// Below it the slip of the learned mean, in whole percent, is above kSlipAlarmPercent.
+inline constexpr int16_t kSlipAlarmMeanQ12Bin =
+    ((100L - kSlipAlarmPercent) * 65536 - 32768 + kPercentPerMeanQ16 - 1) / kPercentPerMeanQ16;
+static_assert(kSlipAlarmMeanQ12Bin == 6829);
+inline constexpr int16_t kSinkageAlarmQ4Mm = 480;  ///< 30 mm
 
 static_assert(kNodeCount * kBinMm >= 500 + 100 + 4 * kBinMm, "the ring spans wheelbase and search");
 static_assert(kTrackingCostQ10 < kAfterLossCostQ10 && kAfterLossCostQ10 < kReacquireCostQ10);

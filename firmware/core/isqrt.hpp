@@ -37,7 +37,7 @@ constexpr U8 isqrt(SameAs<U16> auto value) {
 /// @param value  u32, any
 /// @return       u16, [0, 65535]
 /// @accuracy     exact floor (Isqrt.OfU32IsTheExactFloor...)
-constexpr U16 isqrt(SameAs<U32> auto value) {
+[[gnu::noinline]] constexpr U16 isqrt(SameAs<U32> auto value) {
     return narrow_wrap_u16(isqrt_digits(value, U32{0x4000'0000}, 16));
 }
 

@@ -100,8 +100,9 @@ constexpr int16_t div_round_sat_s16(SameAs<int32_t> auto a, SameAs<int16_t> auto
 template <uint8_t kShift>
 constexpr int16_t lerp(SameAs<int16_t> auto a, SameAs<int16_t> auto b,
                        SameAs<uint8_t> auto fraction) {
-    const int32_t scaled = mul_wide(sub_wrap(b, a), fraction);
-    return add_wrap(a, narrow_wrap_s16(shift_round_half_up<kShift>(scaled)));
+    constexpr int32_t kHalf = int32_t{1} << (kShift - 1);
+    const int32_t scaled = add_wrap(mul_wide(sub_wrap(b, a), fraction), kHalf);  // 24 bits
+    return add_wrap(a, narrow_wrap_s16(shift_floor<kShift>(scaled)));
 }
 /// Fraction in 1/64.
 constexpr int16_t lerp_q6(SameAs<int16_t> auto a, SameAs<int16_t> auto b,

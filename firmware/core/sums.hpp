@@ -55,12 +55,14 @@ constexpr T convert_wrap(Word auto value) {
 /// The T nearest to `value`.
 template <Word T, Word From>
 constexpr T convert_sat(From value) {
-    if constexpr (SignedWord<From>) {
+    if constexpr (SignedWord<From> && SignedWord<T> && sizeof(T) < sizeof(From)) {
+        // It fits when nothing is above the range, moved up to begin at 0.
+        constexpr uint32_t kHalf = uint32_t{1} << (WordTraits<T>::kWidth - 1);
+        if (static_cast<uint32_t>(value) + kHalf < 2 * kHalf) return static_cast<T>(value);
+        return value < 0 ? kMinOf<T> : kMaxOf<T>;
+    } else if constexpr (SignedWord<From>) {
         if (value < 0) {
             if constexpr (UnsignedWord<T>) return T{0};
-            if constexpr (sizeof(T) < sizeof(From)) {
-                if (value < static_cast<From>(kMinOf<T>)) return kMinOf<T>;
-            }
             return static_cast<T>(value);
         }
     }
@@ -125,24 +127,16 @@ constexpr T neg_wrap(T a) {
 /// a + b clamped to the range of T.
 template <Word T>
 constexpr T add_sat(T a, T b) {
-    const T sum = add_wrap(a, b);
-    if constexpr (UnsignedWord<T>) {
-        return sum < a ? kMaxOf<T> : sum;
-    } else {
-        if (b < 0) return sum > a ? kMinOf<T> : sum;
-        return sum < a ? kMaxOf<T> : sum;
-    }
+    T sum = 0;
+    if (!__builtin_add_overflow(a, b, &sum)) return sum;
+    return a < 0 ? kMinOf<T> : kMaxOf<T>;
 }
 /// a - b clamped to the range of T.
 template <Word T>
 constexpr T sub_sat(T a, T b) {
-    const T difference = sub_wrap(a, b);
-    if constexpr (UnsignedWord<T>) {
-        return a < b ? T{0} : difference;
-    } else {
-        if (b < 0) return difference < a ? kMaxOf<T> : difference;
-        return difference > a ? kMinOf<T> : difference;
-    }
+    T difference = 0;
+    if (!__builtin_sub_overflow(a, b, &difference)) return difference;
+    return UnsignedWord<T> || a < 0 ? kMinOf<T> : kMaxOf<T>;
 }
 /// -a; the most negative value maps to the largest.
 template <SignedWord T>
@@ -180,7 +174,7 @@ constexpr T shift_round_half_up(T value, uint8_t count) {
     if (count == 0) return value;
     if (count > WordTraits<T>::kWidth) return T{0};
     const T half = shift_floor(value, static_cast<uint8_t>(count - 1u));
-    return static_cast<T>(shift_floor(half, 1) + (half & 1));
+    return static_cast<T>(shift_floor(value, count) + (half & 1));
 }
 /// value * 2^count modulo 2^width; count >= width gives 0.
 template <Word T>

@@ -27,14 +27,14 @@ constexpr bool can_match(MapGrid& map, const MapGridInput& input) {
     return ahead_of(needed, add_wrap(map.front_place_q6_bin, U16{64})) >= S16{0};
 }
 
-constexpr void move_by(MapGrid& map, S16 advance_q6_bin) {
+[[gnu::noinline]] constexpr void move_by(MapGrid& map, S16 advance_q6_bin) {
     map.advance_q6_bin = advance_q6_bin;
     map.place_q6_bin = add_wrap(map.place_q6_bin, narrow_wrap_u16(advance_q6_bin));
     map.travelled_q6_bin = add_wrap(map.travelled_q6_bin, widen_s32(advance_q6_bin));
 }
 
 /// A quarter of a distance that nothing but the wheels measured.
-constexpr void add_odometry_doubt(MapGrid& map, S16 distance_q6_bin) {
+[[gnu::noinline]] constexpr void add_odometry_doubt(MapGrid& map, S16 distance_q6_bin) {
     const U32 quarter_q12 = shift_left_wrap<4>(widen_u32(abs_u16(distance_q6_bin)));
     map.drift_q12_bin = add_sat(map.drift_q12_bin, quarter_q12);
 }
@@ -96,8 +96,8 @@ constexpr void step_forward(MapGrid& map, const MapGridInput& input) {
 
 /// Slip of the learned mean against a wheel that does not slip, percent [0, 84].
 constexpr S8 slip_percent(const MapGrid& map) {
-    const S32 share = mul_wide(map.mean_q12_bin, U16{kPercentPerMeanQ16});
-    return sub_wrap(S8{100}, narrow_sat_s8(shift_round_half_up<16>(share)));
+    const U32 share = mul_wide(narrow_wrap_u16(map.mean_q12_bin), U16{kPercentPerMeanQ16});
+    return sub_wrap(S8{100}, narrow_wrap_s8(shift_floor<16>(add_wrap(share, U32{0x8000}))));
 }
 
 }  // namespace slip
@@ -106,7 +106,7 @@ constexpr S8 slip_percent(const MapGrid& map) {
 /// @param map    changed in place
 /// @param input  any values; distances out of range are treated as no linkage
 /// @context      control step; not re-entrant
-constexpr void map_grid_step(MapGrid& map, const MapGridInput& input) {
+[[gnu::noinline]] constexpr void map_grid_step(MapGrid& map, const MapGridInput& input) {
     map.lost_lock = false;
     switch (input.motion) {
         case CycleMotion::forward:
@@ -124,13 +124,12 @@ constexpr void map_grid_step(MapGrid& map, const MapGridInput& input) {
     }
     // The running cost restarts lower when lock is lost, so the loss itself counts.
     map.slip_alarm = map.lost_lock || map.match_cost_q10 > U16{slip::kSlipAlarmCostQ10} ||
-                     slip::slip_percent(map) > S8{slip::kSlipAlarmPercent};
+                     map.mean_q12_bin < S16{slip::kSlipAlarmMeanQ12Bin};
 }
 
 /// One sigma of the position, u16 Q4 mm, saturating: covers the error in 90 % of drives.
 constexpr U16 position_sigma_q4_mm(const MapGrid& map) {
-    const U32 spread_q6 = widen_u32(isqrt(map.variance_q12));
-    const U32 total_q6 = add_sat(spread_q6, shift_floor<6>(map.drift_q12_bin));
+    const U32 total_q6 = add_sat(widen_u32(map.spread_q6_bin), shift_floor<6>(map.drift_q12_bin));
     // 1/64 bin is 25/4 units of 1/16 mm.
     return narrow_sat_u16(shift_floor<2>(mul_wide(narrow_sat_u16(total_q6), U16{slip::kBinMm})));
 }

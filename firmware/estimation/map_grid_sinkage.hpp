@@ -10,24 +10,19 @@
 
 namespace rover::slip {
 
-constexpr void remove_sample(MapGrid& map, uint8_t index) {
-    for (uint8_t i = index; i + 1 < map.sample_count; ++i) map.sample[i] = map.sample[i + 1];
-    --map.sample_count;
-}
-
 /// Merges the sample into one nearer than kMergeQ6Bin, else inserts it by place; a full list keeps
 /// what it has.
-constexpr void insert_sample(MapGrid& map, U16 place_q6_bin, S16 height_q4_mm) {
-    uint8_t after = 0;
-    while (after < map.sample_count &&
-           ahead_of(place_q6_bin, map.sample[after].place_q6_bin) <= S16{0}) {
-        ++after;
+[[gnu::noinline]] constexpr void insert_sample(MapGrid& map, U16 place_q6_bin, S16 height_q4_mm) {
+    uint8_t after = map.sample_count;  // new samples are far ahead: the search begins at the end
+    while (after > 0 &&
+           ahead_of(place_q6_bin, sample_at(map, static_cast<uint8_t>(after - 1)).place_q6_bin) >
+               S16{0}) {
+        --after;
     }
-    const uint8_t first = after > 0 ? static_cast<uint8_t>(after - 1) : after;
     for (uint8_t step = 0; step < 2; ++step) {  // the one ahead first, then the one behind
-        const uint8_t near = step == 0 ? after : first;
+        const uint8_t near = static_cast<uint8_t>(after - step);
         if (near >= map.sample_count) continue;
-        GroundSample& sample = map.sample[near];
+        GroundSample& sample = sample_at(map, near);
         const S16 apart = ahead_of(place_q6_bin, sample.place_q6_bin);
         if (abs_u16(apart) >= U16{kMergeQ6Bin}) continue;
         sample.place_q6_bin = add_wrap(place_q6_bin, narrow_wrap_u16(halve_floor(apart)));
@@ -36,13 +31,25 @@ constexpr void insert_sample(MapGrid& map, U16 place_q6_bin, S16 height_q4_mm) {
         return;
     }
     if (map.sample_count == kSampleCount) return;
-    for (uint8_t i = map.sample_count; i > after; --i) map.sample[i] = map.sample[i - 1];
-    map.sample[after] = GroundSample{place_q6_bin, height_q4_mm};
+    for (uint8_t i = map.sample_count; i > after; --i) {
+        sample_at(map, i) = sample_at(map, static_cast<uint8_t>(i - 1));
+    }
+    sample_at(map, after) = GroundSample{place_q6_bin, height_q4_mm};
     ++map.sample_count;
 }
 
+/// Forgets samples until at most one is behind the front wheel.
+constexpr void forget_passed(MapGrid& map) {
+    for (uint8_t i = 0; i < kSampleCount; ++i) {
+        if (map.sample_count < 2) return;
+        if (ahead_of(sample_at(map, 1).place_q6_bin, map.front_place_q6_bin) <= S16{0}) return;
+        map.sample_first = static_cast<uint8_t>(map.sample_first + 1u);
+        --map.sample_count;
+    }
+}
+
 /// Share of the smoothed sinkage to believe, Q8 [0, 256]: 1 - noise^2 / signal^2.
-constexpr U16 believed_share_q8(const MapGrid& map) {
+[[gnu::noinline]] constexpr U16 believed_share_q8(const MapGrid& map) {
     const U16 by_rough_q8_mm =
         narrow_sat_u16(shift_floor<8>(mul_wide(map.rough_q8_mm, U16{kLookPerRoughQ8})));
     const U16 larger = max(by_rough_q8_mm, U16{kLookNoiseQ8Mm});
@@ -59,7 +66,7 @@ constexpr U16 believed_share_q8(const MapGrid& map) {
 }
 
 /// Smooths one raw sinkage and shrinks it; never negative.
-constexpr void smooth_sinkage(MapGrid& map, S16 raw_q4_mm) {
+[[gnu::noinline]] constexpr void smooth_sinkage(MapGrid& map, S16 raw_q4_mm) {
     const uint8_t count = map.sinkage_count;
     const S16 raw_q6_mm = shift_left_sat<2>(raw_q4_mm);
     if (count == 0) {
@@ -87,17 +94,13 @@ constexpr void look_ahead(MapGrid& map, const MapGridInput& input, S16 rear_heig
         insert_sample(map, add_wrap(map.place_q6_bin, input.ahead_distance_q6_bin[i]),
                       add_wrap(rear_height_q4_mm, input.ahead_height_q4_mm[i]));
     }
-    for (uint8_t i = 0; i < kSampleCount; ++i) {
-        if (map.sample_count < 2) break;
-        if (ahead_of(map.sample[1].place_q6_bin, map.front_place_q6_bin) <= S16{0}) break;
-        remove_sample(map, 0);
-    }
+    forget_passed(map);
     const U16 front = add_wrap(map.place_q6_bin, input.front_distance_q6_bin);
     map.sinkage_valid = map.sample_count > 1 && front == map.front_place_q6_bin &&
-                        ahead_of(map.sample[0].place_q6_bin, map.front_place_q6_bin) >= S16{0};
+                        ahead_of(sample_at(map, 0).place_q6_bin, map.front_place_q6_bin) >= S16{0};
     if (!map.sinkage_valid) return;
-    const GroundSample& a = map.sample[0];
-    const GroundSample& b = map.sample[1];
+    const GroundSample& a = sample_at(map, 0);
+    const GroundSample& b = sample_at(map, 1);
     const U16 span = sub_wrap(b.place_q6_bin, a.place_q6_bin);
     const U16 along = sub_wrap(map.front_place_q6_bin, a.place_q6_bin);
     const U8 fraction_q8 =

@@ -56,10 +56,12 @@ struct MapGrid {
     U16 match_cost_q10{slip::kInitialCostQ10};
     uint8_t learned = 0, rough_count = 0;
 
+    U16 spread_q6_bin{0};  ///< root of the variance, rounded down
     U32 variance_q12{0};   ///< of the position, (1/64 bin)^2
     U32 drift_q12_bin{0};  ///< systematic part of the position uncertainty
 
-    GroundSample sample[slip::kSampleCount] = {};  ///< by place, nearest first
+    GroundSample sample[slip::kSampleRing] = {};  ///< by place; see sample_at()
+    uint8_t sample_first = 0;                     ///< of the nearest one, modulo the ring
     uint8_t sample_count = 0;
     uint8_t sinkage_count = 0;
     bool sinkage_valid = false;
@@ -70,6 +72,15 @@ struct MapGrid {
     SlipMode mode = SlipMode::odometry_only;
     bool slip_alarm = false, sinkage_alarm = false, lost_lock = false;
 };
+
+/// Ground sample `index` by place, 0 the nearest.
+constexpr GroundSample& sample_at(MapGrid& map, uint8_t index) {
+    return map.sample[(map.sample_first + index) & (slip::kSampleRing - 1u)];
+}
+
+constexpr const GroundSample& sample_at(const MapGrid& map, uint8_t index) {
+    return map.sample[(map.sample_first + index) & (slip::kSampleRing - 1u)];
+}
 
 /// b - a for places modulo 2^16: positive when b is ahead.
 constexpr S16 ahead_of(U16 a_q6_bin, U16 b_q6_bin) {

@@ -15,30 +15,46 @@ constexpr U16 node_before(U16 place_q6_bin) {
     return shift_floor<6>(place_q6_bin);
 }
 
-constexpr uint8_t ring_index(U16 node) {
-    return index_of(narrow_wrap_u8(bit_and(node, U16{kNodeCount - 1u})));
+/// A node's place in the ring; of the node only the low bits matter.
+constexpr uint8_t ring_index(U8 node) {
+    return index_of(bit_and(node, U8{kNodeCount - 1u}));
+}
+constexpr S16& node_height(MapGrid& map, U8 node) {
+    return map.surface_q4_mm[ring_index(node)];
+}
+constexpr S16 node_height(const MapGrid& map, U8 node) {
+    return map.surface_q4_mm[ring_index(node)];
 }
 constexpr S16& node_height(MapGrid& map, U16 node) {
-    return map.surface_q4_mm[ring_index(node)];
+    return node_height(map, narrow_wrap_u8(node));
 }
-constexpr S16 node_height(const MapGrid& map, U16 node) {
-    return map.surface_q4_mm[ring_index(node)];
+
+/// A place as node (modulo 64) in the high byte and 1/256 bin in the low byte: both are at hand.
+constexpr U16 split_place(U16 place_q6_bin) {
+    return shift_left_wrap<2>(place_q6_bin);
+}
+constexpr U8 node_of(U16 split) {
+    return narrow_wrap_u8(shift_floor<8>(split));
+}
+constexpr U8 fraction_q8_of(U16 split) {
+    return narrow_wrap_u8(split);
 }
 
 /// Surface at any place, s16 Q4 mm: linear between nodes, rounded half up.
-constexpr S16 surface_at(const MapGrid& map, U16 place_q6_bin) {
-    const U16 node = node_before(place_q6_bin);
-    const U8 fraction_q6 = narrow_wrap_u8(bit_and(place_q6_bin, U16{63}));
-    return lerp_q6(node_height(map, node), node_height(map, add_wrap(node, U16{1})), fraction_q6);
+[[gnu::noinline]] constexpr S16 surface_at(const MapGrid& map, U16 place_q6_bin) {
+    const U16 split = split_place(place_q6_bin);
+    const U8 node = node_of(split);
+    return lerp_q8(node_height(map, node), node_height(map, add_wrap(node, U8{1})),
+                   fraction_q8_of(split));
 }
 
 /// value + (target - value) * gain / 256, rounded half up.
-constexpr S16 approach(S16 value, S16 target, uint8_t gain_q8) {
-    const S32 step = mul_wide(sub_sat(target, value), U8{gain_q8});
-    return add_wrap(value, narrow_wrap_s16(shift_round_half_up<8>(step)));
+[[gnu::noinline]] constexpr S16 approach(S16 value, S16 target, uint8_t gain_q8) {
+    const S32 step = add_wrap(mul_wide(sub_sat(target, value), U8{gain_q8}), S32{128});
+    return add_wrap(value, narrow_wrap_s16(shift_floor<8>(step)));
 }
 
-constexpr void drop_map(MapGrid& map) {
+[[gnu::noinline]] constexpr void drop_map(MapGrid& map) {
     map.has_map = false;
     map.measured = false;
     map.sample_count = 0;
@@ -48,18 +64,22 @@ constexpr void drop_map(MapGrid& map) {
 
 /// Writes nodes from the one after `from` up to `to`: a straight line between the two heights, and
 /// the first node beyond `to` at the height of `to`, so that the surface has a value up to there.
-constexpr void fill_line(MapGrid& map, U16 from_q6_bin, S16 from_q4_mm, U16 to_q6_bin,
-                         S16 to_q4_mm) {
+[[gnu::noinline]] constexpr void fill_line(MapGrid& map, U16 from_q6_bin, S16 from_q4_mm,
+                                           U16 to_q6_bin, S16 to_q4_mm) {
     const U16 length = sub_wrap(to_q6_bin, from_q6_bin);
     const U16 per_length_q16 = div_floor(U16{65535}, length);
+    // Shares of the way in Q16 go up by the same from node to node; they stay below 65536.
+    const U16 share_step_q16 = shift_left_wrap<6>(per_length_q16);
     U16 node = add_wrap(node_before(from_q6_bin), U16{1});
+    U16 along_q6_bin = sub_wrap(U16{64}, bit_and(from_q6_bin, U16{63}));
+    U16 share_q16 = mul_wrap(along_q6_bin, per_length_q16);
     for (uint8_t i = 0; i < kNodeCount; ++i) {
-        const U16 along = sub_wrap(shift_left_wrap<6>(node), from_q6_bin);
-        if (along >= length) break;
-        const U8 fraction_q8 =
-            narrow_sat_u8(shift_round_half_up<8>(mul_wide(along, per_length_q16)));
-        node_height(map, node) = lerp_q8(from_q4_mm, to_q4_mm, fraction_q8);
+        if (along_q6_bin >= length) break;
+        const U8 share_q8 = narrow_sat_u8(shift_round_half_up<8>(share_q16));
+        node_height(map, node) = lerp_q8(from_q4_mm, to_q4_mm, share_q8);
         node = add_wrap(node, U16{1});
+        along_q6_bin = add_wrap(along_q6_bin, U16{64});
+        share_q16 = add_wrap(share_q16, share_step_q16);
     }
     node_height(map, node) = to_q4_mm;
     if (bit_and(to_q6_bin, U16{63}) == U16{0}) {

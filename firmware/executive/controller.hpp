@@ -14,17 +14,22 @@ namespace rover {
 /// One control step, every 100 ms.
 /// @param controller  changed in place; controller_reset() before the first step
 /// @param inputs      any values
-/// @return            what the vehicle is to do until the next step
+/// @param commands    what the vehicle is to do until the next step; telemetry bytes behind
+///                    telemetry_size stay as they were
 /// @context           main line; not re-entrant
-constexpr hal::Commands controller_step(Controller& controller, const hal::RawInputs& inputs) {
+constexpr void controller_step(Controller& controller, const hal::RawInputs& inputs,
+                               hal::Commands& commands) {
     using namespace executive;
     Estimates& estimates = controller.estimates;
+    const bool first = !controller.started;
     begin_step(controller, inputs);
     Angles angles;
     estimates.faults = bit_or(
         estimates.faults, read_angles(inputs, controller.calibration, controller.stuck, angles));
-    const LinkagePose pose = linkage_pose(angles);
-    const OdometerStep travel = odometer_step(controller.odometer, inputs, controller.calibration);
+    LinkagePose pose;
+    linkage_pose(angles, pose);
+    OdometerStep travel;
+    odometer_step(controller.odometer, inputs, controller.calibration, travel);
     if (travel.valid) set_available(estimates, kAvailableOdometry);
     if (abs_u16(travel.travel_q4_mm) > uint16_t{kCycleTravelQ4Mm}) {
         set_event(estimates, kEventOverspeed);
@@ -36,15 +41,23 @@ constexpr hal::Commands controller_step(Controller& controller, const hal::RawIn
     }
     report_attitude(estimates, angles, pose);
     CycleMotion motion = CycleMotion::moved;
-    if (moved_at_rest(controller, pose, travel.moving) || cycle_due(controller, motion)) {
+    const bool due =
+        moved_at_rest(controller, pose, travel.moving) || cycle_due(controller, motion);
+    if (due) {
         run_cycle(controller, inputs, pose, angles[hal::AngleChannel::pitch].brad, scan_fresh,
                   motion);
     }
+    if (due || first) report_cycle(controller);
     estimates.faults = bit_or(estimates.faults, controller.sensor_faults);
     if (estimates.faults != 0) set_event(estimates, kEventSensorFault);
     report_map(controller);
-    hal::Commands commands;
     command(estimates, commands);
+}
+
+/// The same, with what it returns all new.
+constexpr hal::Commands controller_step(Controller& controller, const hal::RawInputs& inputs) {
+    hal::Commands commands;
+    controller_step(controller, inputs, commands);
     return commands;
 }
 

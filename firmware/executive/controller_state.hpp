@@ -34,11 +34,16 @@ struct Controller {
     int32_t cycle_travel_q4_mm = kCycleTravelQ4Mm;  ///< odometer when the next forward cycle is due
     int32_t last_travel_q4_mm = 0;                  ///< odometer at the last cycle
     int32_t last_turn_q4_mm = 0;
-    int16_t odometer_rest_q6 = 0;  ///< remainder of the conversion to 1/64 bin, [0, 24]
-    Side side = Side::none;        ///< side whose linkage made the map
+    int16_t odometer_rest_q6 = 0;      ///< remainder of the conversion to 1/64 bin, [0, 24]
+    int32_t cycle_position_q4_mm = 0;  ///< position at the last cycle
+    uint16_t share_q15 = 32768;        ///< learned advance of a rim travel, [5460, 32768]
+    Side side = Side::none;            ///< side whose linkage made the map
     bool resting = false;
     int16_t rest_middle_q4_mm = 0, rest_front_q4_mm = 0;  ///< heights when the wheels stopped
 };
+
+/// Copied as a whole: assigning field by field is longer than the copy.
+inline constexpr Controller kControllerAtReset{};
 
 /// Can the record be used? Its version is known and no value makes a computation meaningless.
 constexpr bool is_valid(const hal::Calibration& calibration) {
@@ -50,7 +55,7 @@ constexpr bool is_valid(const hal::Calibration& calibration) {
 /// Puts the controller into its state after reset. A calibration record that is not valid is
 /// replaced by the nominal one and reported as kFaultCalibration in every step.
 constexpr void controller_reset(Controller& controller, const hal::Calibration& calibration) {
-    controller = Controller{};
+    controller = kControllerAtReset;
     if (is_valid(calibration)) {
         controller.calibration = calibration;
     } else {

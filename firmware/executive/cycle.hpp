@@ -32,14 +32,17 @@ constexpr bool can_look_ahead(const LinkagePose& pose, bool scan_fresh) {
 }
 
 /// Fills in the look-ahead part of a cycle's input and of the estimates.
-constexpr void add_look_ahead(Controller& controller, const hal::RawInputs& inputs,
-                              const LinkagePose& pose, int16_t pitch_brad, MapGridInput& input) {
+[[gnu::noinline]] constexpr void add_look_ahead(Controller& controller,
+                                                const hal::RawInputs& inputs,
+                                                const LinkagePose& pose, int16_t pitch_brad,
+                                                MapGridInput& input) {
+    const LookAhead view = look_ahead(pose, pitch_brad);
     for (uint8_t i = 0; i < vehicle::kLookAheadCount; ++i) {
         if (bit_and(shift_floor(inputs.range_present, i), uint8_t{1}) == 0) continue;
         const int16_t range_q1_mm =
             sub_sat(inputs.range_q1_mm[i], controller.calibration.range_offset_q1_mm);
-        const GroundPoint point = ground_point(pose, pitch_brad, i, range_q1_mm,
-                                               controller.calibration.wheel_radius_q4_mm);
+        GroundPoint point;
+        ground_point(view, i, range_q1_mm, controller.calibration.wheel_radius_q4_mm, point);
         input.ahead_height_q4_mm[input.ahead_count] = point.height_q4_mm;
         input.ahead_distance_q6_bin[input.ahead_count] = point.distance_q6_bin;
         ++input.ahead_count;
@@ -107,24 +110,25 @@ constexpr bool moved_at_rest(Controller& controller, const LinkagePose& pose, bo
 
 /// Books way that no cycle measures: before a turn or a move by hand cut it short, or beyond a
 /// cycle's range. It was driven, and the position has already been reported with it.
-constexpr void book_unmeasured_way(MapGrid& map, int16_t odometer_q6_bin) {
-    const int16_t advance = learned_share(map, odometer_q6_bin);
-    slip::move_by(map, advance);
-    slip::add_odometry_doubt(map, advance);
+[[gnu::noinline]] constexpr void book_unmeasured_way(Controller& controller,
+                                                     int16_t odometer_q6_bin) {
+    const int16_t advance = learned_advance(controller, odometer_q6_bin);
+    slip::move_by(controller.map, advance);
+    slip::add_odometry_doubt(controller.map, advance);
 }
 
 /// The odometry of this cycle for the estimator, 1/64 bin. What lies beyond its range is booked as
 /// driven beforehand.
-constexpr int16_t forward_odometer(MapGrid& map, int16_t odometer_q6_bin) {
+constexpr int16_t forward_odometer(Controller& controller, int16_t odometer_q6_bin) {
     if (odometer_q6_bin <= kCycleOdometerMaxQ6Bin) return odometer_q6_bin;
-    book_unmeasured_way(map, sub_wrap(odometer_q6_bin, kCycleOdometerMaxQ6Bin));
+    book_unmeasured_way(controller, sub_wrap(odometer_q6_bin, kCycleOdometerMaxQ6Bin));
     return kCycleOdometerMaxQ6Bin;
 }
 
 /// Runs one slip-and-sinkage cycle.
-constexpr void run_cycle(Controller& controller, const hal::RawInputs& inputs,
-                         const LinkagePose& pose, int16_t pitch_brad, bool scan_fresh,
-                         CycleMotion motion) {
+[[gnu::noinline]] constexpr void run_cycle(Controller& controller, const hal::RawInputs& inputs,
+                                           LinkagePose& pose, int16_t pitch_brad, bool scan_fresh,
+                                           CycleMotion motion) {
     Estimates& estimates = controller.estimates;
     MapGridInput input;
     input.motion = motion;
@@ -132,9 +136,9 @@ constexpr void run_cycle(Controller& controller, const hal::RawInputs& inputs,
     input.odometer_q6_bin = odometer_q6_bin;
     schedule_next(controller, motion);
     if (motion == CycleMotion::turn || motion == CycleMotion::moved) {
-        book_unmeasured_way(controller.map, odometer_q6_bin);
+        book_unmeasured_way(controller, odometer_q6_bin);
     } else {
-        input.odometer_q6_bin = forward_odometer(controller.map, odometer_q6_bin);
+        input.odometer_q6_bin = forward_odometer(controller, odometer_q6_bin);
     }
     if (pose.side != Side::none) {
         // A map made by one side says nothing about the ground of the other.
@@ -145,6 +149,7 @@ constexpr void run_cycle(Controller& controller, const hal::RawInputs& inputs,
         input.linkage = true;
         input.middle_height_q4_mm = pose.middle_height_q4_mm;
         input.front_height_q4_mm = pose.front_height_q4_mm;
+        add_distances(pose);
         input.middle_distance_q6_bin = pose.middle_distance_q6_bin;
         input.front_distance_q6_bin = pose.front_distance_q6_bin;
         if (can_look_ahead(pose, scan_fresh)) {

@@ -5,6 +5,7 @@
 // Design note  docs/design/executive.md     Tests  tests/firmware/executive/pose_record_test.cpp
 #pragma once
 
+#include "firmware/core/isqrt.hpp"
 #include "firmware/executive/controller_state.hpp"
 
 namespace rover {
@@ -52,6 +53,7 @@ constexpr void controller_resume(Controller& controller, const PoseRecord& recor
     Odometer& odometer = controller.odometer;
     map.travelled_q6_bin = record.travelled_q6_bin;
     map.variance_q12 = record.variance_q12;
+    map.spread_q6_bin = isqrt(map.variance_q12);
     map.drift_q12_bin = add_sat(record.drift_q12_bin, uint32_t{slip::kDriftPerMoveQ12Bin});
     map.mean_q12_bin = clamp(record.mean_q12_bin, slip::kMeanMinQ12Bin, slip::kMeanNoSlipQ12Bin);
     map.learned = min(record.learned, slip::kLearnSteps);

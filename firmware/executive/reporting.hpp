@@ -43,31 +43,48 @@ constexpr int32_t q4_mm_from_q6_bin(int32_t value) {
     return add_wrap(six_times, shift_floor<2>(value));
 }
 
-/// The share of a rim travel that the vehicle is taken to have advanced: the learned share forward,
-/// all of it backwards. The same in s16 Q4 mm and s16 1/64 bin; rounded down.
-constexpr int16_t learned_share(const MapGrid& map, int16_t rim_travel) {
-    if (rim_travel < 0) return rim_travel;
-    const int32_t share = mul_wide(rim_travel, map.mean_q12_bin);
-    return narrow_sat_s16(div_floor(share, int32_t{slip::kMeanNoSlipQ12Bin}));
+/// The learned mean as a share of the way without slip: u16 Q15, [5460, 32768].
+constexpr uint16_t learned_share_q15(const MapGrid& map) {
+    // 32768 / 9830 in Q13 is 27307.6; the product is at most 32768.3 in Q13.
+    constexpr uint16_t kPerMeanQ13 =
+        uint16_t{(268435456ul + slip::kMeanNoSlipQ12Bin / 2) / slip::kMeanNoSlipQ12Bin};
+    return narrow_wrap_u16(
+        shift_floor<13>(mul_wide(narrow_wrap_u16(map.mean_q12_bin), kPerMeanQ13)));
 }
 
-/// Copies what the estimator knows into the estimates. Without linkage in this step, slip and
-/// sinkage count as not available and raise no alarm: nothing would ever take it back.
-constexpr void report_map(Controller& controller) {
+/// What the vehicle is taken to have advanced in a rim travel: the learned share forward, all of it
+/// backwards. The same in s16 Q4 mm and s16 1/64 bin; rounded down, one LSB at most from the share.
+constexpr int16_t learned_advance(const Controller& controller, int16_t rim_travel) {
+    if (rim_travel < 0) return rim_travel;
+    return narrow_wrap_s16(
+        shift_floor<15>(mul_wide(narrow_wrap_u16(rim_travel), controller.share_q15)));
+}
+
+/// What only a cycle changes: copies what the estimator knows into the estimates.
+[[gnu::noinline]] constexpr void report_cycle(Controller& controller) {
     Estimates& estimates = controller.estimates;
     const MapGrid& map = controller.map;
     estimates.mode = map.mode;
-    // Between cycles the position runs on with the learned share of the odometer.
-    const int16_t since_cycle_q4_mm =
-        narrow_sat_s16(sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm));
-    estimates.position_q4_mm = add_wrap(q4_mm_from_q6_bin(map.travelled_q6_bin),
-                                        widen_s32(learned_share(map, since_cycle_q4_mm)));
-    estimates.odometer_q4_mm = controller.odometer.travel_q4_mm;
+    controller.cycle_position_q4_mm = q4_mm_from_q6_bin(map.travelled_q6_bin);
+    controller.share_q15 = learned_share_q15(map);
     estimates.position_sigma_q4_mm = position_sigma_q4_mm(map);
     estimates.advance_q4_mm = narrow_sat_s16(q4_mm_from_q6_bin(widen_s32(map.advance_q6_bin)));
     estimates.slip_percent = slip::slip_percent(map);
     estimates.match_cost_q4 = shift_floor<6>(map.match_cost_q10);
     estimates.sinkage_q4_mm = map.sinkage_q4_mm;
+}
+
+/// Position, and what the estimates of this step are worth. Without linkage in this step, slip and
+/// sinkage count as not available and raise no alarm: nothing would ever take it back.
+[[gnu::noinline]] constexpr void report_map(Controller& controller) {
+    Estimates& estimates = controller.estimates;
+    const MapGrid& map = controller.map;
+    // Between cycles the position runs on with the learned share of the odometer.
+    const int16_t since_cycle_q4_mm =
+        narrow_sat_s16(sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm));
+    estimates.position_q4_mm = add_wrap(controller.cycle_position_q4_mm,
+                                        widen_s32(learned_advance(controller, since_cycle_q4_mm)));
+    estimates.odometer_q4_mm = controller.odometer.travel_q4_mm;
     if (bit_and(estimates.available, uint8_t{kAvailableLinkage}) == 0) return;
     // Backwards no new ground is felt: the sinkage would be that of another place.
     const bool sinkage = map.sinkage_valid && map.mode != SlipMode::reversing;
@@ -97,6 +114,9 @@ constexpr void command(const Estimates& estimates, hal::Commands& commands) {
     const uint8_t alarms = static_cast<uint8_t>(kEventSlipAlarm | kEventSinkageAlarm);
     const bool caution = bit_and(estimates.events, alarms) != 0;
     for (int8_t& drive : commands.drive_percent) drive = caution ? kCautionPercent : kCruisePercent;
+    for (int16_t& steer : commands.steer_brad) steer = 0;
+    commands.mast_brad = 0;
+    commands.laser_bits = 0;
     commands.telemetry_size = write_telemetry(estimates, commands.telemetry);
 }
 

@@ -31,7 +31,8 @@ constexpr int16_t angle_from_count(uint16_t adc_q4_count,
     const bool above = adc_q4_count >= calibration.zero_q4_count;
     const uint16_t away = above ? sub_wrap(adc_q4_count, calibration.zero_q4_count)
                                 : sub_wrap(calibration.zero_q4_count, adc_q4_count);
-    const uint32_t scaled = shift_round_half_up<16>(mul_wide(away, calibration.gain_q16));
+    const uint16_t scaled = narrow_wrap_u16(
+        shift_floor<16>(add_wrap(mul_wide(away, calibration.gain_q16), uint32_t{0x8000})));
     const int16_t magnitude = narrow_sat_s16(scaled);
     return above != calibration.inverted ? magnitude : neg_wrap(magnitude);
 }
@@ -55,7 +56,7 @@ constexpr uint16_t angle_count(const hal::RawInputs& inputs, uint8_t channel) {
 
 /// Once a slip-and-sinkage cycle. A channel is stuck when its sum of 16 conversions has been the
 /// same for kStuckCycles cycles in which at least one other channel changed.
-constexpr void watch_cycle(StuckWatch& watch, const hal::RawInputs& inputs) {
+[[gnu::noinline]] constexpr void watch_cycle(StuckWatch& watch, const hal::RawInputs& inputs) {
     bool any_changed = false;
     for (uint8_t i = 0; i < hal::kAngleChannelCount; ++i) {
         if (angle_count(inputs, i) != watch.last_q4_count[i]) any_changed = true;
@@ -73,8 +74,9 @@ constexpr void watch_cycle(StuckWatch& watch, const hal::RawInputs& inputs) {
 
 /// Angles of this step; a channel that is absent, at a rail, uncalibrated or stuck is not valid.
 /// @return  Fault bits of the channels that are present but not to be believed
-constexpr uint16_t read_angles(const hal::RawInputs& inputs, const hal::Calibration& calibration,
-                               const StuckWatch& watch, Angles& angles) {
+[[gnu::noinline]] constexpr uint16_t read_angles(const hal::RawInputs& inputs,
+                                                 const hal::Calibration& calibration,
+                                                 const StuckWatch& watch, Angles& angles) {
     uint16_t faults = 0;
     for (uint8_t i = 0; i < hal::kAngleChannelCount; ++i) {
         const uint16_t count = angle_count(inputs, i);

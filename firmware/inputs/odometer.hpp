@@ -12,15 +12,11 @@
 
 namespace rover {
 
-/// Wheels of a side, front to rear.
-inline constexpr uint8_t kLeftWheels[3] = {0, 2, 4};
-inline constexpr uint8_t kRightWheels[3] = {1, 3, 5};
-
 struct Odometer {
     uint16_t last_count[hal::kWheelCount] = {};
     bool started = false;
-    int32_t rest_q17_mm = 0;  ///< travel not yet in the total, below 1/16 mm
-    int32_t turn_rest_q17_mm = 0;
+    uint16_t rest_q17_mm = 0;  ///< travel not yet in the total, below 1/16 mm
+    uint16_t turn_rest_q17_mm = 0;
     int32_t travel_q4_mm = 0;  ///< mean rim travel of both sides since reset
     int32_t turn_q4_mm = 0;    ///< half the difference of the sides since reset
     /// Pulses that a wheel is ahead of its side, within +-kTachLeadMaxCount. The middle one of
@@ -32,7 +28,6 @@ struct Odometer {
 /// What one step added.
 struct OdometerStep {
     int16_t travel_q4_mm = 0;
-    int16_t turn_q4_mm = 0;
     bool moving = false;  ///< any present wheel counted
     bool valid = false;   ///< at least one side has a tachometer
 };
@@ -42,116 +37,141 @@ constexpr int16_t median3(int16_t a, int16_t b, int16_t c) {
     return max(min(a, b), min(max(a, b), c));
 }
 
-constexpr bool is_present(uint8_t present, uint8_t wheel) {
-    return bit_and(shift_floor(present, wheel), uint8_t{1}) != 0;
-}
+/// The wheels of a side are every second one, front to rear: the left from 0, the right from 1 on.
+inline constexpr uint8_t kSideStep = 2;
 
 /// What stands for one side: median of three, mean of two rounded down, the one.
+/// @param value    of the side's front wheel and every second one behind it
+/// @param present  bit 0: the front wheel, bit 2, bit 4
 /// @return  number of wheels present; with 0, `result` is untouched
-constexpr uint8_t middle_of_side(const int16_t (&value)[hal::kWheelCount], uint8_t present,
-                                 const uint8_t (&wheels)[3], int16_t& result) {
-    int16_t seen[3] = {};
-    uint8_t count = 0;
-    for (const uint8_t wheel : wheels) {
-        if (!is_present(present, wheel)) continue;
-        seen[count] = value[wheel];
-        ++count;
+constexpr uint8_t middle_of_side(const int16_t* value, uint8_t present, int16_t& result) {
+    if (bit_and(present, uint8_t{0x15}) == 0x15) {
+        result = median3(value[0], value[kSideStep], value[2 * kSideStep]);
+        return 3;
     }
-    if (count == 1) result = seen[0];
-    if (count == 2) result = average(seen[0], seen[1]);
-    if (count == 3) result = median3(seen[0], seen[1], seen[2]);
+    uint8_t count = 0;
+    for (uint8_t wheel = 0; wheel < hal::kWheelCount; wheel += kSideStep) {
+        if (bit_and(present, uint8_t{1}) != 0) {
+            result = count == 0 ? value[wheel] : average(result, value[wheel]);
+            ++count;
+        }
+        present = shift_floor<kSideStep>(present);
+    }
     return count;
 }
 
 /// Pulses that a side advances in this step: its middle wheel's, counted since reset. What the
 /// other wheels are ahead or behind is kept, so that wheels which count in turn lose nothing; of
 /// two wheels it is the odd pulse.
+/// @param lead     of the side's front wheel and every second one behind it; this step's pulses
+/// added
+/// @param present  bit 0: the front wheel, bit 2, bit 4
 /// @return  false when no wheel of the side is present
-constexpr bool side_pulses(Odometer& odometer, const int16_t (&pulses)[hal::kWheelCount],
-                           uint8_t present, const uint8_t (&wheels)[3], int16_t& result) {
-    for (const uint8_t wheel : wheels) {
-        int16_t& lead = odometer.lead_count[wheel];
-        lead = is_present(present, wheel) ? add_wrap(lead, pulses[wheel]) : int16_t{0};
-    }
-    const uint8_t count = middle_of_side(odometer.lead_count, present, wheels, result);
+constexpr bool side_pulses(int16_t* lead, uint8_t present, int16_t& result) {
+    const uint8_t count = middle_of_side(lead, present, result);
     int16_t odd_pulse = 0;
-    for (const uint8_t wheel : wheels) {
-        if (!is_present(present, wheel)) continue;
-        int16_t& lead = odometer.lead_count[wheel];
-        lead = sub_wrap(lead, result);
-        odd_pulse = add_wrap(odd_pulse, lead);
-        if (count == 2) lead = 0;
-        lead = clamp(lead, static_cast<int16_t>(-kTachLeadMaxCount), kTachLeadMaxCount);
+    uint8_t first = hal::kWheelCount;
+    for (uint8_t wheel = 0; wheel < hal::kWheelCount; wheel += kSideStep) {
+        if (bit_and(present, uint8_t{1}) != 0) {
+            if (first == hal::kWheelCount) first = wheel;
+            const int16_t rest = sub_wrap(lead[wheel], result);
+            odd_pulse = add_wrap(odd_pulse, rest);
+            lead[wheel] = clamp(rest, static_cast<int16_t>(-kTachLeadMaxCount), kTachLeadMaxCount);
+            if (count == 2) lead[wheel] = 0;
+        }
+        present = shift_floor<kSideStep>(present);
     }
-    if (count == 2) {
-        const uint8_t first = is_present(present, wheels[0]) ? wheels[0] : wheels[1];
-        odometer.lead_count[first] = odd_pulse;  // 0 or 1
-    }
+    if (count == 2) lead[first] = odd_pulse;  // 0 or 1
     return count > 0;
 }
 
-/// Takes whole sixteenths of a millimetre out of a remainder in Q17.
-constexpr int16_t take_whole_q4_mm(int32_t& rest_q17_mm) {
-    const int16_t whole = narrow_sat_s16(shift_floor<13>(rest_q17_mm));
-    rest_q17_mm = sub_wrap(rest_q17_mm, shift_left_wrap<13>(widen_s32(whole)));
-    return whole;
+/// Adds pulses to a total in whole sixteenths of a millimetre; the rest is kept.
+/// @param pulses_q1  twice the mean of both sides, so that no half pulse is lost; at most 32000
+///                   either way, so that no sum overflows
+/// @return  what was added, saturated
+[[gnu::noinline]] constexpr int16_t add_travel(int16_t pulses_q1, uint16_t q16_mm_per_count,
+                                               uint16_t& rest_q17_mm, int32_t& total_q4_mm) {
+    const int32_t sum_q17_mm =
+        add_wrap(mul_wide(pulses_q1, q16_mm_per_count), widen_s32(rest_q17_mm));
+    rest_q17_mm = bit_and(narrow_wrap_u16(sum_q17_mm), uint16_t{0x1FFF});
+    const int32_t whole_q4_mm = shift_floor<13>(sum_q17_mm);
+    total_q4_mm = add_wrap(total_q4_mm, whole_q4_mm);
+    return narrow_sat_s16(whole_q4_mm);
+}
+
+/// Takes this step's counters: pulses go to the leads and to the counts of the cycle.
+/// @return  true when a present wheel counted
+constexpr bool count_pulses(Odometer& odometer, const hal::RawInputs& inputs) {
+    bool moving = false;
+    uint8_t present = inputs.tach_present;
+    for (uint8_t wheel = 0; wheel < hal::kWheelCount; ++wheel) {
+        const uint16_t count = inputs.tach_count[wheel];
+        const int16_t pulses = narrow_wrap_s16(sub_wrap(count, odometer.last_count[wheel]));
+        odometer.last_count[wheel] = count;
+        const bool here = bit_and(present, uint8_t{1}) != 0;
+        present = halve_floor(present);
+        if (!here) {
+            odometer.lead_count[wheel] = 0;
+            continue;
+        }
+        // A counter that jumps by about a quarter of its range has been upset, not driven.
+        if (pulses == 0 || !odometer.started || abs_u16(pulses) > kTachStepMaxCount) continue;
+        odometer.lead_count[wheel] = add_wrap(odometer.lead_count[wheel], pulses);
+        odometer.wheel_cycle_count[wheel] = add_sat(odometer.wheel_cycle_count[wheel], pulses);
+        moving = true;
+    }
+    odometer.started = true;
+    return moving;
 }
 
 /// One control step. The first call only remembers the counters.
-constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& inputs,
-                                     const hal::Calibration& calibration) {
-    int16_t pulses[hal::kWheelCount] = {};
-    OdometerStep step;
-    for (uint8_t wheel = 0; wheel < hal::kWheelCount; ++wheel) {
-        const int16_t difference =
-            narrow_wrap_s16(sub_wrap(inputs.tach_count[wheel], odometer.last_count[wheel]));
-        odometer.last_count[wheel] = inputs.tach_count[wheel];
-        if (!odometer.started || !is_present(inputs.tach_present, wheel)) continue;
-        // A counter that jumps by about a quarter of its range has been upset, not driven.
-        if (abs_u16(difference) > kTachStepMaxCount) continue;
-        pulses[wheel] = difference;
-        odometer.wheel_cycle_count[wheel] = add_sat(odometer.wheel_cycle_count[wheel], difference);
-        if (difference != 0) step.moving = true;
-    }
-    odometer.started = true;
+[[gnu::noinline]] constexpr void odometer_step(Odometer& odometer, const hal::RawInputs& inputs,
+                                               const hal::Calibration& calibration,
+                                               OdometerStep& step) {
+    step = OdometerStep{};
+    step.moving = count_pulses(odometer, inputs);
     int16_t left = 0;
     int16_t right = 0;
-    const bool has_left = side_pulses(odometer, pulses, inputs.tach_present, kLeftWheels, left);
-    const bool has_right = side_pulses(odometer, pulses, inputs.tach_present, kRightWheels, right);
-    if (!has_left && !has_right) return step;
+    const bool has_left = side_pulses(odometer.lead_count, inputs.tach_present, left);
+    const bool has_right =
+        side_pulses(odometer.lead_count + 1, halve_floor(inputs.tach_present), right);
+    if (!has_left && !has_right) return;
     if (!has_left) left = right;
     if (!has_right) right = left;
-    // Twice the mean, so that no half pulse is lost: Q16 per pulse becomes Q17.
-    const int32_t forward = mul_wide(add_sat(left, right), calibration.tach_q16_mm_per_count);
-    const int32_t turn = mul_wide(sub_sat(right, left), calibration.tach_q16_mm_per_count);
-    odometer.rest_q17_mm = add_sat(odometer.rest_q17_mm, forward);
-    odometer.turn_rest_q17_mm = add_sat(odometer.turn_rest_q17_mm, turn);
-    step.travel_q4_mm = take_whole_q4_mm(odometer.rest_q17_mm);
-    step.turn_q4_mm = take_whole_q4_mm(odometer.turn_rest_q17_mm);
-    odometer.travel_q4_mm = add_wrap(odometer.travel_q4_mm, widen_s32(step.travel_q4_mm));
-    odometer.turn_q4_mm = add_wrap(odometer.turn_q4_mm, widen_s32(step.turn_q4_mm));
+    const uint16_t scale = calibration.tach_q16_mm_per_count;
+    step.travel_q4_mm =
+        add_travel(add_sat(left, right), scale, odometer.rest_q17_mm, odometer.travel_q4_mm);
+    add_travel(sub_sat(right, left), scale, odometer.turn_rest_q17_mm, odometer.turn_q4_mm);
     step.valid = true;
+}
+constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& inputs,
+                                     const hal::Calibration& calibration) {
+    OdometerStep step;
+    odometer_step(odometer, inputs, calibration, step);
     return step;
 }
 
 /// Once a cycle: does a present wheel disagree with the median of its side by more than
 /// kTachDisagreeQ4Mm? Clears the cycle counts.
-constexpr bool tachometers_disagree(Odometer& odometer, uint8_t present,
-                                    const hal::Calibration& calibration) {
+[[gnu::noinline]] constexpr bool tachometers_disagree(Odometer& odometer, uint8_t present,
+                                                      const hal::Calibration& calibration) {
+    // More pulses than this are more than kTachDisagreeQ4Mm: |off| * k / 2^12 > limit, all whole.
+    const uint16_t allowed_count =
+        div_floor_sat_u16(shift_left_wrap<12>(uint32_t{kTachDisagreeQ4Mm + 1u}) - 1u,
+                          calibration.tach_q16_mm_per_count);
     bool disagree = false;
-    for (uint8_t side = 0; side < 2; ++side) {
-        const auto& wheels = side == 0 ? kLeftWheels : kRightWheels;
+    for (uint8_t side = 0; side < kSideStep; ++side) {
         int16_t middle = 0;
-        if (middle_of_side(odometer.wheel_cycle_count, present, wheels, middle) == 0) continue;
-        for (const uint8_t wheel : wheels) {
-            if (!is_present(present, wheel)) continue;
-            const int16_t off = sub_sat(odometer.wheel_cycle_count[wheel], middle);
-            const uint32_t off_q4_mm =
-                shift_floor<12>(mul_wide(abs_u16(off), calibration.tach_q16_mm_per_count));
-            if (off_q4_mm > kTachDisagreeQ4Mm) disagree = true;
+        int16_t* const count = odometer.wheel_cycle_count + side;
+        middle_of_side(count, shift_floor(present, side), middle);
+        uint8_t here = shift_floor(present, side);
+        for (uint8_t wheel = 0; wheel < hal::kWheelCount; wheel += kSideStep) {
+            const uint16_t off = abs_u16(sub_sat(count[wheel], middle));
+            count[wheel] = 0;
+            if (bit_and(here, uint8_t{1}) != 0 && off > allowed_count) disagree = true;
+            here = shift_floor<kSideStep>(here);
         }
     }
-    for (int16_t& count : odometer.wheel_cycle_count) count = 0;
     return disagree;
 }
 

@@ -93,18 +93,14 @@ struct ByteReader {
 };
 
 constexpr uint16_t frame_crc(const uint8_t* frame) {
-    uint16_t crc = kCrc16Start;
-    for (uint8_t i = 2; i < kTelemetryHeadSize + kTelemetryPayloadSize; ++i) {
-        crc = crc16_add(crc, frame[i]);
-    }
-    return crc;
+    return crc16_add(kCrc16Start, frame + 2, kTelemetryHeadSize - 2 + kTelemetryPayloadSize);
 }
 
 }  // namespace link
 
 /// Writes one frame. @return kTelemetrySize
-constexpr uint8_t write_telemetry(const Estimates& estimates,
-                                  uint8_t (&frame)[hal::kTelemetryBytesMax]) {
+[[gnu::noinline]] constexpr uint8_t write_telemetry(const Estimates& estimates,
+                                                    uint8_t (&frame)[hal::kTelemetryBytesMax]) {
     link::ByteWriter writer{frame};
     writer.put(kTelemetrySync0);
     writer.put(kTelemetrySync1);

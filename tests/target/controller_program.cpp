@@ -21,7 +21,7 @@ void target_reset() {
 }
 
 void target_step() {
-    target_commands = rover::controller_step(target_controller, target_inputs);
+    rover::controller_step(target_controller, target_inputs, target_commands);
 }
 
 int main() {

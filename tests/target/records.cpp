@@ -70,12 +70,14 @@ void add(Record& record, const rover::MapGrid& value) {
     record.field("map.match_cost_q10", value.match_cost_q10);
     record.field("map.learned", value.learned);
     record.field("map.rough_count", value.rough_count);
+    record.field("map.spread_q6_bin", value.spread_q6_bin);
     record.field("map.variance_q12", value.variance_q12);
     record.field("map.drift_q12_bin", value.drift_q12_bin);
     for (const rover::GroundSample& sample : value.sample) {
         record.field("map.sample.place_q6_bin", sample.place_q6_bin);
         record.field("map.sample.height_q4_mm", sample.height_q4_mm);
     }
+    record.field("map.sample_first", value.sample_first);
     record.field("map.sample_count", value.sample_count);
     record.field("map.sinkage_count", value.sinkage_count);
     record.field("map.sinkage_valid", value.sinkage_valid);
@@ -146,6 +148,8 @@ Record record_of(const rover::Controller& controller) {
     record.field("last_travel_q4_mm", controller.last_travel_q4_mm);
     record.field("last_turn_q4_mm", controller.last_turn_q4_mm);
     record.field("odometer_rest_q6", controller.odometer_rest_q6);
+    record.field("cycle_position_q4_mm", controller.cycle_position_q4_mm);
+    record.field("share_q15", controller.share_q15);
     record.field("side", controller.side);
     record.field("resting", controller.resting);
     record.field("rest_middle_q4_mm", controller.rest_middle_q4_mm);

@@ -247,6 +247,9 @@ Bytes Builder::shift_right_signed(const Bytes& value, unsigned count) {
         const auto wide = static_cast<int64_t>(*number << unused) >> unused;
         return constant(static_cast<uint64_t>(wide >> count % kByteBits), value.size());
     }
+    if (rest.size() == 1 && count % kByteBits == kByteBits - 1) {  // nothing but the sign
+        return Bytes(value.size(), sign_extended(rest, 2)[1]);
+    }
     return sign_extended(shifted(Opcode::shift_right_signed, rest, count % kByteBits),
                          value.size());
 }

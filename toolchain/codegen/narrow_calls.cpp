@@ -155,8 +155,9 @@ private:
     Bytes multiply(const std::string& name, std::size_t wanted) {
         const bool is_signed = name == "__smul16w" || name == "__mul8s";
         const Extension extension = is_signed ? Extension::sign : Extension::zero;
+        const bool mixed = name == "__mul8_s16w";  // the byte has no sign, the word has
         Operand left = operand(0, extension, wanted);
-        Operand right = operand(1, extension, wanted);
+        Operand right = operand(1, mixed ? Extension::sign : extension, wanted);
         if (left.zero_width > right.zero_width) std::swap(left, right);
         if (left.zero_width == 0) {
             changed_ = true;
@@ -192,6 +193,10 @@ private:
         }
         if (left.sign_width <= 1 && right.sign_width <= 1) {
             const Bytes product = call("__mul8s", {take(left, 1), take(right, 1)}, 2);
+            return builder_.sign_extended(product, wanted);
+        }
+        if (left.zero_width <= 1 && right.sign_width <= 2) {
+            const Bytes product = call("__mul8_s16w", {take(left, 1), take(right, 2)}, 3);
             return builder_.sign_extended(product, wanted);
         }
         if (right.zero_width <= 2) return call("__umul16w", words(), 4);

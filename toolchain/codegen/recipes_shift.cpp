@@ -229,6 +229,50 @@ void add_right_by_left(Ways& ways, const Coder& start, const Operation& operatio
     }
 }
 
+// The same of three bytes with all of the result: the bits go from HL through A into a fourth
+// register.
+void add_three_right_by_left(Ways& ways, const Coder& start, const Operation& operation) {
+    const Bytes& left = operation.left;
+    const Bytes& results = operation.results;
+    const unsigned count = kByteBits - operation.immediate;
+    const bool is_signed = operation.opcode == Opcode::shift_right_signed;
+    if (results.size() != 3 || count > 3 || !start.needed(results.back(), true)) return;
+    for (const Pair top : {Pair::bc, Pair::de}) {
+        add_way(ways, start, [&](Coder& coder) {
+            const Register upper = high_of(top);
+            const Register kept = low_of(top);
+            take_hl(coder, left[0], left[1]);
+            coder.lock(Pair::hl);
+            take_a(coder, left[2]);
+            coder.lock(Register::a);
+            coder.vacate(top, true);
+            if (coder.failed) return;
+            coder.set(top, kNone, kNone);
+            if (is_signed) {
+                coder.emit(mov(kept, Register::a));
+                coder.emit(op::kRal);
+                coder.emit(0x9F);  // SBB A
+                coder.emit(mov(upper, Register::a));
+                coder.emit(mov(Register::a, kept));
+            } else {
+                coder.emit_number(by_register(op::kMvi, upper), 0);
+            }
+            for (unsigned i = 0; i < count; ++i) {
+                coder.emit(by_pair(op::kDad, Pair::hl));
+                coder.emit(op::kRal);
+                coder.emit(mov(kept, Register::a));
+                coder.emit(mov(Register::a, upper));
+                coder.emit(op::kRal);
+                coder.emit(mov(upper, Register::a));
+                if (i + 1 < count) coder.emit(mov(Register::a, kept));
+            }
+            coder.set(Pair::hl, kNone, results[0]);
+            coder.set(top, results[1], results[2]);
+            coder.set(Register::a, results[2]);
+        });
+    }
+}
+
 // The same of three or four bytes, where the highest of the result is not needed.
 void add_long_right_by_left(Ways& ways, const Coder& start, const Operation& operation) {
     const Bytes& left = operation.left;
@@ -324,6 +368,7 @@ void add_shifts(Ways& ways, const Coder& start, const Operation& operation) {
     }
     add_steps_right(ways, start, operation);
     add_right_by_left(ways, start, operation);
+    add_three_right_by_left(ways, start, operation);
     add_long_right_by_left(ways, start, operation);
 }
 

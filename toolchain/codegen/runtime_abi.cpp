@@ -23,12 +23,13 @@ constexpr const char* kB = "__wide.b";
 constexpr const char* kFactor = "__mul32.cells";
 constexpr const char* kDivisor = "__udiv32.cells";
 
-constexpr std::array<Row, 35> kRows = {{
+constexpr std::array<Row, 36> kRows = {{
     {"__mul8", "AE", "LH", "ADHLF", {}},
     {"__mul8s", "AE", "LH", "ADHLF", {}},
     {"__mul8_16", "AED", "LH", "AHLF", {}},
     {"__mul16", "LHED", "LH", "AHLF", {}},
     {"__mul8_16w", "AED", "LHA", "AHLF", {}},
+    {"__mul8_s16w", "AED", "LHA", "AHLF", {}},
     {"__smul16w", "LHED", "LHED", "ADEHLF", {}},
     {"__umul16w", "LHED", "LHED", "ADEHLF", {}},
     {"__mul32", "LHEDxxxx", "LHED", "ADEHLF", {kFactor}},

@@ -67,6 +67,37 @@ bool has_effect(const Operation& operation) {
     }
 }
 
+/// Is the byte that constant?
+bool is_constant(const Function& function, ByteId byte, uint8_t value) {
+    const ByteInfo& info = function.bytes[byte];
+    return info.kind == Kind::constant && info.constant == value;
+}
+
+/// An order does not depend on the lowest bytes where those of the right are 00H (nothing is below
+/// them) or those of the left FFH (nothing is above them): a test of the sign needs the top byte.
+void shrink_comparison(const Function& function, Predicate predicate, Bytes& left, Bytes& right) {
+    if (predicate == Predicate::equal || predicate == Predicate::not_equal) return;
+    std::size_t count = 0;
+    while (count + 1 < left.size() && (is_constant(function, right[count], 0x00) ||
+                                       is_constant(function, left[count], 0xFF))) {
+        ++count;
+    }
+    left.erase(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(count));
+    right.erase(right.begin(), right.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+void shrink_comparisons(Function& function) {
+    for (Block& block : function.blocks) {
+        for (Operation& operation : block.operations) {
+            if (operation.opcode != Opcode::compare) continue;
+            shrink_comparison(function, operation.predicate, operation.left, operation.right);
+        }
+        Terminator& end = block.terminator;
+        if (end.kind != Terminator::Kind::branch) continue;
+        shrink_comparison(function, end.predicate, end.left, end.right);
+    }
+}
+
 /// Bytes that something with an effect depends on.
 class Needs {
 public:
@@ -171,6 +202,7 @@ void drop_unneeded(Function& function) {
 
 void simplify(Function& function) {
     intern_constants(function);
+    shrink_comparisons(function);
     drop_unneeded(function);
 }
 

@@ -56,6 +56,20 @@ std::pair<Value*, Value*> checked(Builder& builder, llvm::Intrinsic::ID id, Valu
         Value* both = builder.CreateAnd(builder.CreateXor(result, first), second);
         return builder.CreateICmpSLT(both, zero);
     };
+    const unsigned width = left->getType()->getIntegerBitWidth();
+    const bool is_wide = width > 16 && width % 8 == 0;
+    if (is_wide && (id == I::uadd_with_overflow || id == I::uadd_sat ||
+                    id == I::usub_with_overflow || id == I::usub_sat)) {
+        // One byte more holds the carry: cheaper than a comparison of all the others.
+        const bool adds = id == I::uadd_with_overflow || id == I::uadd_sat;
+        llvm::Type* wider = builder.getIntNTy(width + 8);
+        Value* first = builder.CreateZExt(left, wider);
+        Value* second = builder.CreateZExt(right, wider);
+        Value* whole = adds ? builder.CreateAdd(first, second) : builder.CreateSub(first, second);
+        Value* carry = builder.CreateTrunc(builder.CreateLShr(whole, width), builder.getInt8Ty());
+        return {builder.CreateTrunc(whole, left->getType()),
+                builder.CreateICmpNE(carry, builder.getInt8(0))};
+    }
     if (id == I::uadd_with_overflow || id == I::uadd_sat) {
         Value* sum = builder.CreateAdd(left, right);
         return {sum, builder.CreateICmpULT(sum, left)};
@@ -72,8 +86,7 @@ std::pair<Value*, Value*> checked(Builder& builder, llvm::Intrinsic::ID id, Valu
         return {difference, signed_overflow(difference, left, builder.CreateXor(left, right))};
     }
     const bool is_signed = id == I::smul_with_overflow;
-    const unsigned bits = left->getType()->getIntegerBitWidth();
-    llvm::Type* wide = builder.getIntNTy(bits * 2);
+    llvm::Type* wide = builder.getIntNTy(width * 2);
     const auto extend = [&](Value* value) {
         return is_signed ? builder.CreateSExt(value, wide) : builder.CreateZExt(value, wide);
     };
@@ -98,11 +111,10 @@ Value* expand_saturating(Builder& builder, const llvm::IntrinsicInst& call) {
         case llvm::Intrinsic::usub_sat:
             limit = number(llvm::APInt::getMinValue(bits));
             break;
-        default: {
-            Value* negative = builder.CreateICmpSLT(left, number(llvm::APInt(bits, 0)));
-            limit = builder.CreateSelect(negative, number(llvm::APInt::getSignedMinValue(bits)),
-                                         number(llvm::APInt::getSignedMaxValue(bits)));
-        }
+        default:  // the copies of the sign, or of its opposite: no branch, and only in the rare
+                  // case
+            limit = builder.CreateXor(builder.CreateAShr(left, bits - 1),
+                                      number(llvm::APInt::getSignedMaxValue(bits)));
     }
     return builder.CreateSelect(overflow, limit, result);
 }

@@ -36,7 +36,8 @@ const char* broken(const MapGrid& map, const MapGrid& before) {
     if (moved != travelled || moved != static_cast<uint16_t>(map.advance_q6_bin)) return "place";
     if (slip::slip_percent(map) < 0 || slip::slip_percent(map) > 84) return "slip_percent";
     for (uint8_t i = 1; i < map.sample_count; ++i) {
-        const auto gap = ahead_of(map.sample[i - 1].place_q6_bin, map.sample[i].place_q6_bin);
+        const auto gap = ahead_of(sample_at(map, static_cast<uint8_t>(i - 1)).place_q6_bin,
+                                  sample_at(map, i).place_q6_bin);
         // Places half a lap apart have no order; samples are kept for less than that in flight.
         if (gap < -16384) return "sample order";
     }

@@ -71,7 +71,8 @@ TEST(ResidualSigma, IsAQuarterOfTheRoughnessWithinOneHundredthOfAMillimetre) {
 TEST(MatchCosts, AreResidualAndPriorInSquaredSigmasWithinTheTableStep) {
     Scene scene(0.25, 2);
     scene.map.rough_q8_mm = 20 * 256;  // sigma 5 mm: far from saturation at most places
-    const Match match = match_costs(scene.map, scene.input, 1);
+    Match match;
+    match_costs(scene.map, scene.input, 1, expected_advance_q12_bin(scene.map, scene.input), match);
     for (int i = 0; i < kHalfBinCandidates; ++i) {
         const int half_bin = 1 + i;
         const auto residual_mm = [&](int node) {
@@ -86,7 +87,66 @@ TEST(MatchCosts, AreResidualAndPriorInSquaredSigmasWithinTheTableStep) {
         const double fit = std::abs(misfit_mm / 5);
         const double prior = std::abs(off_bin / 0.5);
         const double tolerance = (2 * fit + 2 * prior) / 16 + 2.0 / 256 + 1.0 / 64;
-        EXPECT_NEAR(match.cost_q6[i] / 64.0, fit * fit + prior * prior, tolerance) << half_bin;
+        EXPECT_NEAR(match.cost(static_cast<uint8_t>(i)) / 64.0, fit * fit + prior * prior,
+                    tolerance)
+            << half_bin;
+    }
+}
+
+TEST(MatchCosts, TheBestCandidateIsTheFirstWithTheLeastCost) {
+    for (int advance = 4; advance < 36; ++advance) {
+        Scene scene(0.25, advance / 10.0);
+        for (const U16 first : {U16{1}, U16{2}}) {
+            Match match;
+            match_costs(scene.map, scene.input, first, S16{8192}, match);
+            for (uint8_t i = 0; i < kHalfBinCandidates; ++i) {
+                ASSERT_GE(match.cost(i), match.least_q6 + (i < match.best ? 1 : 0));
+            }
+            ASSERT_EQ(match.cost(match.best), match.least_q6);
+        }
+    }
+}
+
+// Around a least cost, 16 (before - after) / (before - 2 least + after) in 1/64 bin, half up.
+TEST(FitParabola, IsTheMinimumOfTheParabolaRoundedHalfUp) {
+    for (int least = 0; least <= 2000; least += 250) {
+        for (int before = 0; before < 30000; before = before * 5 / 4 + 7) {
+            for (int after = 0; after < 30000; after = after * 5 / 4 + 3) {
+                if (before + after == 0) continue;
+                Parabola found;
+                fit_parabola(static_cast<U16>(least + before), static_cast<U16>(least),
+                             static_cast<U16>(least + after), found);
+                const double exact = 16.0 * (before - after) / (before + after);
+                const double bend = before + after;
+                // A bend of more than 32767 loses its lowest bit.
+                const double slack = bend > 32767 ? 1e-3 : 0;
+                ASSERT_GE(found.offset_q6_bin, std::floor(exact + 0.5 - slack));
+                ASSERT_LE(found.offset_q6_bin, std::floor(exact + 0.5 + slack));
+                const double variance = std::min(1024.0, 131072.0 / bend);
+                ASSERT_NEAR(found.variance_q12, variance, 1 + variance / std::max(bend - 1, 1.0))
+                    << bend;
+            }
+        }
+    }
+}
+
+TEST(FitParabola, ThreeEqualCostsSayNothing) {
+    Parabola found;
+    fit_parabola(U16{700}, U16{700}, U16{700}, found);
+    EXPECT_EQ(found.offset_q6_bin, 0);
+    EXPECT_EQ(found.variance_q12, kPriorVarianceQ12);
+}
+
+TEST(AddVariance, TheSpreadIsTheExactRootRoundedDown) {
+    MapGrid map;
+    const uint16_t steps[] = {1024, 1, 0, 997, 512, 1023};
+    uint64_t sum = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const uint16_t step = steps[i % 6];
+        add_variance(map, step);
+        sum += step;
+        ASSERT_EQ(map.variance_q12, sum);
+        ASSERT_EQ(map.spread_q6_bin, static_cast<uint16_t>(std::sqrt(static_cast<double>(sum))));
     }
 }
 

@@ -21,7 +21,9 @@ TEST(InsertSample, KeepsTheListInOrderOfPlace) {
             insert_sample(map, static_cast<U16>(base + random() % 3000), 5);
             ASSERT_LE(map.sample_count, kSampleCount);
             for (uint8_t k = 1; k < map.sample_count; ++k) {
-                ASSERT_GE(ahead_of(map.sample[k - 1].place_q6_bin, map.sample[k].place_q6_bin), 0)
+                ASSERT_GE(ahead_of(sample_at(map, static_cast<uint8_t>(k - 1)).place_q6_bin,
+                                   sample_at(map, k).place_q6_bin),
+                          0)
                     << "seed " << kSeed << " trial " << trial;
             }
         }
@@ -33,8 +35,8 @@ TEST(InsertSample, NearSamplesAreAveraged) {
     insert_sample(map, 1000, 100);
     insert_sample(map, 1000 + kMergeQ6Bin - 1, 200);  // nearer than 2 cm
     ASSERT_EQ(map.sample_count, 1);
-    EXPECT_EQ(map.sample[0].place_q6_bin, 1025);
-    EXPECT_EQ(map.sample[0].height_q4_mm, 150);
+    EXPECT_EQ(sample_at(map, 0).place_q6_bin, 1025);
+    EXPECT_EQ(sample_at(map, 0).height_q4_mm, 150);
     insert_sample(map, 1025 + kMergeQ6Bin, 300);  // 2 cm: kept apart
     EXPECT_EQ(map.sample_count, 2);
 }
@@ -44,7 +46,7 @@ TEST(InsertSample, AFullListKeepsWhatItHas) {
     for (int i = 0; i < kSampleCount; ++i) insert_sample(map, static_cast<U16>(i * 100), S16{7});
     insert_sample(map, 60000, 9);
     EXPECT_EQ(map.sample_count, kSampleCount);
-    for (int i = 0; i < kSampleCount; ++i) EXPECT_EQ(map.sample[i].height_q4_mm, 7);
+    for (uint8_t i = 0; i < kSampleCount; ++i) EXPECT_EQ(sample_at(map, i).height_q4_mm, 7);
 }
 
 // The root of the sum of squares is replaced by larger + 3/8 smaller (within 7 %), which squared

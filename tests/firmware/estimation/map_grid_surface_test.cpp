@@ -30,16 +30,16 @@ TEST(SurfaceAt, IsTheLineBetweenTwoNodesRoundedHalfUp) {
 
 TEST(SurfaceAt, CrossesTheEndOfTheRingAndOfThePlaces) {
     MapGrid map;
-    node_height(map, 1023) = 100;  // the last node before places wrap
-    node_height(map, 0) = 200;
+    node_height(map, U16{1023}) = 100;  // the last node before places wrap
+    node_height(map, U16{0}) = 200;
     EXPECT_EQ(surface_at(map, 65535), 100 + std::lround(100 * 63 / 64.0));
     EXPECT_EQ(surface_at(map, 0), 200);
 }
 
 TEST(SurfaceAt, HillsBeyondTheRangeOfHeightsAreOnlyDifferences) {
     MapGrid map;
-    node_height(map, 4) = 32760;
-    node_height(map, 5) = narrow_wrap_s16(S32{32760 + 16});  // 1 mm higher, past the end
+    node_height(map, U16{4}) = 32760;
+    node_height(map, U16{5}) = narrow_wrap_s16(S32{32760 + 16});  // 1 mm higher, past the end
     EXPECT_EQ(surface_at(map, 4 * 64 + 32), narrow_wrap_s16(S32{32768}));
 }
 
@@ -154,9 +154,9 @@ TEST(ExtendMap, SplitsTheMisfitBetweenRearAndMiddleWheel) {
     input.middle_height_q4_mm = 8 * 16;
     input.front_height_q4_mm = 0;
     EXPECT_EQ(extend_map(map, input), -4 * 16);
-    EXPECT_EQ(node_height(map, 10), 2 * 16);
-    EXPECT_EQ(node_height(map, 11), 2 * 16);
-    EXPECT_EQ(node_height(map, 9), 0);
+    EXPECT_EQ(node_height(map, U16{10}), 2 * 16);
+    EXPECT_EQ(node_height(map, U16{11}), 2 * 16);
+    EXPECT_EQ(node_height(map, U16{9}), 0);
     EXPECT_EQ(map.front_height_q4_mm, -4 * 16);
     EXPECT_EQ(map.front_place_q6_bin, 32 + 1280);
 }

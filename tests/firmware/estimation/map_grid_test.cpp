@@ -279,8 +279,9 @@ TEST(MapGrid, LossOfLockIsReportedOnceAndRaisesTheSlipAlarm) {
 TEST(PositionSigma, IsSpreadPlusDriftRoundedDownByLessThanAMillimetre) {
     MapGrid map;
     for (uint32_t variance = 0; variance < 1u << 20; variance += 997) {
+        if (variance > 0) slip::add_variance(map, 997);
+        ASSERT_EQ(map.variance_q12, variance);
         for (const uint32_t drift : {0u, 5000u, 123456u}) {
-            map.variance_q12 = variance;
             map.drift_q12_bin = drift;
             // 1/64 bin is 6.25 units of 1/16 mm; both roots are rounded down.
             const double sigma = (std::sqrt(variance) + drift / 64.0) * 6.25;
@@ -288,7 +289,7 @@ TEST(PositionSigma, IsSpreadPlusDriftRoundedDownByLessThanAMillimetre) {
             ASSERT_GE(position_sigma_q4_mm(map), sigma - 2 * 6.25 - 1);
         }
     }
-    map.variance_q12 = map.drift_q12_bin = 0xFFFFFFFF;
+    map.drift_q12_bin = 0xFFFFFFFF;
     EXPECT_EQ(position_sigma_q4_mm(map), 65535);
 }
 

@@ -22,17 +22,22 @@ TEST(Q4MmFromQ6Bin, IsTwentyFiveQuartersRoundedDownModulo32Bits) {
     }
 }
 
-TEST(LearnedShare, IsTheMeanOfSixCentimetresForwardAndAllOfItBackwards) {
-    MapGrid map;
-    EXPECT_EQ(learned_share(map, 960), 960);
+// Rounded down, and up to one more or less for the share's own rounding.
+TEST(LearnedAdvance, IsTheMeanOfSixCentimetresForwardAndAllOfItBackwards) {
+    Controller controller;
+    EXPECT_EQ(learned_advance(controller, 960), 960);
     for (const int mean : {1638, 4096, 8192, 9830}) {
-        map.mean_q12_bin = static_cast<std::int16_t>(mean);
+        controller.map.mean_q12_bin = static_cast<std::int16_t>(mean);
+        report_cycle(controller);
         for (int travel = 0; travel <= 32767; travel += 13) {
-            ASSERT_EQ(learned_share(map, static_cast<std::int16_t>(travel)),
-                      std::floor(travel * (mean / 9830.0) + 1e-9));
+            const double exact = travel * (mean / 9830.0);
+            const int found = learned_advance(controller, static_cast<std::int16_t>(travel));
+            ASSERT_LE(found, exact + 1) << travel;
+            ASSERT_GT(found, exact - 2) << travel;
         }
-        EXPECT_EQ(learned_share(map, -960), -960);
+        EXPECT_EQ(learned_advance(controller, -960), -960);
     }
+    EXPECT_EQ(learned_advance(controller, 32767), 32767) << "no slip is exact";
 }
 
 struct Report {
@@ -46,6 +51,7 @@ struct Report {
     const Estimates& make(bool linkage) {
         controller.estimates.events = 0;
         controller.estimates.available = linkage ? kAvailableLinkage : 0;
+        report_cycle(controller);
         report_map(controller);
         return controller.estimates;
     }

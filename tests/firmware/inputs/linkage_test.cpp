@@ -114,6 +114,17 @@ TEST(Linkage, NeedsPitchDifferentialAndOneBogie) {
     EXPECT_EQ(side_without({differential}), rover::Side::none);
 }
 
+/// Where a sample lies for the rocker's angle of `pose`.
+rover::GroundPoint ground_point(rover::LinkagePose pose, std::int16_t pitch_brad,
+                                std::uint8_t index, int range_q1_mm) {
+    pose.rocker_sine_q15 = rover::sine_q15(pose.rocker_brad);
+    pose.rocker_cosine_q15 = rover::cosine_q15(pose.rocker_brad);
+    rover::GroundPoint point;
+    rover::ground_point(rover::look_ahead(pose, pitch_brad), index,
+                        static_cast<std::int16_t>(range_q1_mm), 1040, point);
+    return point;
+}
+
 TEST(GroundPoint, IsWhereTheSimulatedLookAheadSampleLies) {
     double worst_height_mm = 0;
     double worst_place_mm = 0;
@@ -135,7 +146,7 @@ TEST(GroundPoint, IsWhereTheSimulatedLookAheadSampleLies) {
                     if (!sight.seen) continue;
                     ++seen;
                     const auto range = static_cast<std::int16_t>(std::lround(20 * sight.height_cm));
-                    const auto point = rover::ground_point(pose, pitch, i, range, 1040);
+                    const auto point = ground_point(pose, pitch, i, range);
                     const double height_mm = 10 * (ground(sight.x_cm) - ground(0));
                     worst_height_mm =
                         std::fmax(worst_height_mm, std::abs(point.height_q4_mm / 16.0 - height_mm));
@@ -155,9 +166,9 @@ TEST(GroundPoint, IsWhereTheSimulatedLookAheadSampleLies) {
 
 TEST(GroundPoint, SaturatesInsteadOfWrapping) {
     rover::LinkagePose pose;
-    EXPECT_GT(rover::ground_point(pose, 0, 1, 32767, 1040).height_q4_mm, 30000);
-    EXPECT_LT(rover::ground_point(pose, 0, 1, -32768, 1040).height_q4_mm, -30000);
-    EXPECT_EQ(rover::ground_point(pose, brad(90), 1, 32767, 1040).distance_q6_bin, 0);
+    EXPECT_GT(ground_point(pose, 0, 1, 32767).height_q4_mm, 30000);
+    EXPECT_LT(ground_point(pose, 0, 1, -32768).height_q4_mm, -30000);
+    EXPECT_EQ(ground_point(pose, brad(90), 1, 32767).distance_q6_bin, 0);
 }
 
 }  // namespace

@@ -142,6 +142,8 @@ bool Interpreter::routine(const std::string& name) {
         set_registers("A", kGarbage);
     } else if (name == "__mul8_16w") {
         set_registers("AHL", a * de);
+    } else if (name == "__mul8_s16w") {
+        set_registers("AHL", a * is_signed(de, 16));
     } else if (name == "__umul16w") {
         set_registers("DEHL", hl * de);
     } else if (name == "__smul16w") {

@@ -58,6 +58,27 @@ TEST(Multiply, EightBySixteen) {
     full.expect_stated();
 }
 
+// A byte without and a word with a sign: every byte, and every word at some bytes.
+TEST(Multiply, EightBySignedSixteen) {
+    Calls mixed("__mul8_s16w");
+    const auto check = [&](uint64_t de, uint64_t a) {
+        const Registers in{.a = static_cast<uint8_t>(a), .de = static_cast<uint16_t>(de)};
+        const Registers out = mixed(in);
+        const int64_t product = static_cast<int64_t>(a) * static_cast<int16_t>(de);
+        ASSERT_EQ(static_cast<uint64_t>(out.a) << 16 | out.hl,
+                  static_cast<uint64_t>(product) & 0xFFFFFF)
+            << a << " * " << static_cast<int16_t>(de);
+    };
+    for (const uint64_t de : corners(16)) {
+        for (unsigned a = 0; a < 256; ++a) ASSERT_NO_FATAL_FAILURE(check(de, a));
+    }
+    for (const unsigned a : {1U, 0x80U, 0xFFU}) {
+        for (unsigned de = 0; de < 0x10000; ++de) ASSERT_NO_FATAL_FAILURE(check(de, a));
+    }
+    with_pairs(16, 8, kRandom, check);
+    mixed.expect_stated();
+}
+
 TEST(Multiply, SixteenBySixteenLow) {
     Calls mul16("__mul16");
     const auto check = [&](uint64_t a, uint64_t b) {
