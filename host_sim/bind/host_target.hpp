@@ -4,27 +4,21 @@
 //              the telemetry frame, never from the controller's memory.
 #pragma once
 
-#include <functional>
+#include <memory>
 #include <string>
 
-#include "host_sim/log/log.hpp"
-#include "host_sim/world/drive.hpp"
+#include "host_sim/bind/controller_target.hpp"
 
 namespace host_sim {
 
 /// Version and content hash of the firmware sources that this program was built from, and target.
 std::string host_image_identity();
 
-/// Called now and then with the share done, [0, 1].
-using DriveProgress = std::function<void(double)>;
+/// The native controller.
+std::unique_ptr<ControllerTarget> make_host_target();
 
-/// Drives the simulated vehicle with the native controller until the course ends.
-/// @param head  calibration and notes of the log; the image identity is filled in
-/// @return  every step with inputs, truth, estimates and commands
-Log drive_on_host(Drive& drive, LogHead head, const DriveProgress& progress = {});
-
-/// Feeds every row's inputs to a freshly reset native controller. Estimates and commands of the log
-/// are replaced; inputs, times and truth stay.
+/// drive() and replay() on it.
+Log drive_on_host(Drive& world, LogHead head, const DriveProgress& progress = {});
 void replay_on_host(Log& log, const DriveProgress& progress = {});
 
 }  // namespace host_sim

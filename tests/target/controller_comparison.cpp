@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "firmware/executive/controller.hpp"
-#include "tests/target/input_walk.hpp"
+#include "host_sim/world/input_walk.hpp"
 
 namespace target_test {
 
@@ -107,11 +107,11 @@ void Reached::add(const rover::Estimates& estimates) {
 Comparison compare(Mailbox& target, uint64_t seed, uint64_t cycles,
                    const std::function<void(bool)>& after_step) {
     Comparison result;
-    InputWalk walk(seed);
+    host_sim::InputWalk walk(seed);
     rover::Controller native;
     hal::Commands commands;
     while (result.cycles < cycles && result.difference.empty()) {
-        const InputWalk::Next next = walk.next(commands);
+        const host_sim::InputWalk::Next next = walk.next(commands);
         if (next.reset) {
             rover::controller_reset(native, next.calibration);
             target.reset(record_of(next.calibration));

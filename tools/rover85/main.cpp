@@ -9,6 +9,7 @@
 
 #include "tools/rover85/calibrate_command.hpp"
 #include "tools/rover85/command_errors.hpp"
+#include "tools/rover85/compare_command.hpp"
 #include "tools/rover85/debug_command.hpp"
 #include "tools/rover85/flash_command.hpp"
 #include "tools/rover85/image_beside.hpp"
@@ -28,11 +29,13 @@ int main(int argc, char** argv) {
         "Examples:\n"
         "  rover85 simulate --terrain wilcox1994 --roughness 0.02 --out out/first\n"
         "  rover85 replay out/first/traverse.rlog --out out/again\n"
+        "  rover85 compare out/first/traverse.rlog\n"
         "  rover85 sweep slip --estimator map_grid --arithmetic fixed --seeds 40\n"
         "`rover85 COMMAND --help` shows the options of a command, with examples.");
     int exit_code = kExitPass;
     add_simulate_command(app, exit_code);
     add_replay_command(app, exit_code);
+    add_compare_command(app, exit_code);
     add_sweep_command(app, exit_code);
     add_recover_command(app, exit_code);
     add_calibrate_command(app, exit_code);

@@ -5,17 +5,19 @@
 #include <memory>
 #include <string>
 
-#include "host_sim/bind/host_target.hpp"
+#include "host_sim/bind/controller_target.hpp"
 #include "host_sim/calibration/calibration_file.hpp"
 #include "host_sim/log/log_io.hpp"
 #include "tools/rover85/command_errors.hpp"
 #include "tools/rover85/drive_output.hpp"
 #include "tools/rover85/progress_bar.hpp"
+#include "tools/rover85/target_option.hpp"
 
 namespace {
 
 struct ReplayOptions {
-    std::string log, calibration, target = "host", out = "out/replay";
+    std::string log, calibration, out = "out/replay";
+    TargetOptions target;
 };
 
 int replay(const ReplayOptions& options) {
@@ -27,9 +29,10 @@ int replay(const ReplayOptions& options) {
         fmt::print(stderr, "rover85: {}: no checksum line; edits of this file go unnoticed\n",
                    options.log);
     }
+    const auto target = make_target(options.target);
     {
         ProgressBar bar("Replaying");
-        host_sim::replay_on_host(log, [&bar](double share) { bar.update(share); });
+        host_sim::replay(*target, log, [&bar](double share) { bar.update(share); });
     }
     write_drive_output(log, {options.out, "Replay of " + options.log,
                              "rover85 replay " + options.log, std::nullopt});
@@ -50,9 +53,7 @@ void add_replay_command(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "replay", "Feed a recorded log (.rlog or wide CSV) to the controller and report on it");
     command.add_option("LOG", options->log, "Recorded log")->required()->type_name("LOG");
-    command.add_option("--target", options->target, "Where the controller runs")
-        ->check(CLI::IsMember({"host"}))
-        ->capture_default_str();
+    add_target_options(command, options->target);
     command
         .add_option("--calibration", options->calibration,
                     "Calibration record to use instead of the log's own")
@@ -64,9 +65,10 @@ void add_replay_command(CLI::App& app, int& exit_code) {
         "absent; the report says which estimates are then not available.\n"
         "Examples:\n"
         "  rover85 replay out/simulate/traverse.rlog --out out/again\n"
+        "  rover85 replay out/simulate/traverse.rlog --target board --out out/on_board\n"
         "  rover85 replay snow_13.rlog --calibration measured.toml");
     command.callback(
-        [options, &exit_code] { exit_code = guarded([&] { return replay(*options); }); });
+        [options, &exit_code] { exit_code = guarded_on_target([&] { return replay(*options); }); });
 }
 
 void add_report_command(CLI::App& app, int& exit_code) {

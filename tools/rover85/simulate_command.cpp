@@ -1,21 +1,26 @@
 #include "tools/rover85/simulate_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
-#include "host_sim/bind/host_target.hpp"
+#include "host_sim/bind/controller_target.hpp"
 #include "host_sim/calibration/calibration_file.hpp"
 #include "host_sim/world/course.hpp"
 #include "tools/rover85/command_errors.hpp"
 #include "tools/rover85/drive_output.hpp"
 #include "tools/rover85/progress_bar.hpp"
+#include "tools/rover85/target_option.hpp"
 
 namespace {
 
 struct SimulateOptions {
-    std::string terrain = "fractal", target = "host", out = "out/simulate";
+    std::string terrain = "fractal", out = "out/simulate";
+    TargetOptions target;
+    std::vector<double> resets_s;
     double roughness = 0.02, length_m = 62.5, ramp_m = 1.0;
     bool length_given = false;
     std::uint64_t seed = 1;
@@ -119,12 +124,16 @@ int simulate(const SimulateOptions& options, const std::string& command_line) {
         fmt::format("{}, mean {} cm per 6 cm of wheel travel", options.advance, options.mean_cm);
     if (!options.faults.empty()) head.notes["faults"] = options.faults;
 
+    const auto target = make_target(options.target);
+    std::vector<double> resets_s = options.resets_s;
+    std::sort(resets_s.begin(), resets_s.end());
+    if (!resets_s.empty()) head.notes["resets"] = fmt::format("{} s", fmt::join(resets_s, ", "));
     host_sim::Drive drive(course);
     host_sim::Log log;
     {
         ProgressBar bar("Driving");
-        log = host_sim::drive_on_host(drive, std::move(head),
-                                      [&bar](double share) { bar.update(share); });
+        log = host_sim::drive(
+            *target, drive, std::move(head), [&bar](double share) { bar.update(share); }, resets_s);
     }
     if (drive.end() != host_sim::DriveEnd::reached) {
         fmt::print("The course was not finished: {} after {:.2f} m.\n",
@@ -222,9 +231,13 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
     command.add_option("--seed", options->seed, "Everything random follows from it")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command.add_option("--target", options->target, "Where the controller runs")
-        ->check(CLI::IsMember({"host"}))
-        ->capture_default_str();
+    add_target_options(command, options->target);
+    command
+        .add_option("--reset-at", options->resets_s,
+                    "Seconds at which the processor is reset; it goes on from its checkpoint")
+        ->delimiter(',')
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("S[,S...]");
     command.add_option("--out", options->out, "Folder for the results")->capture_default_str();
     add_world_options(command, *options);
     add_sensor_options(command, *options);
@@ -233,10 +246,11 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
         "Examples:\n"
         "  rover85 simulate --terrain wilcox1994 --roughness 0.04 --seed 7 --out out/rough\n"
         "  rover85 simulate --faults bogie_left:stuck@600-900 --length 20\n"
-        "  rover85 simulate --terrain profile:ground.csv --advance uniform");
+        "  rover85 simulate --terrain profile:ground.csv --advance uniform\n"
+        "  rover85 simulate --target board --length 5 --reset-at 120,240.5");
     command.callback([options, length, &exit_code] {
         options->length_given = length->count() > 0;
-        exit_code = guarded([&] {
+        exit_code = guarded_on_target([&] {
             return simulate(*options,
                             fmt::format("rover85 simulate --terrain {} --roughness {} --length {} "
                                         "--seed {}",

@@ -337,58 +337,6 @@ TEST(Rlog, UnknownRecordTypesAreSkippedFrom80hAndRefusedBelow) {
     EXPECT_TRUE(refused_at(damaged, builder.offsets[3], "checksum")) << "skipped, but checked";
 }
 
-TEST(Rlog, ARestartRecordMarksTheStepBehindIt) {
-    RlogBuilder builder;
-    builder.record(1, plain_head()).record(2, plain_step(1)).record(3, "\x01").record(0x80, "");
-    builder.record(2, plain_step(2)).record(3, "\x02").record(2, plain_step(3));
-    const Log log = read_rlog(builder.bytes, "x");
-    ASSERT_EQ(log.steps.size(), 3u);
-    EXPECT_EQ(log.steps[0].restart, host_sim::Restart::none);
-    EXPECT_EQ(log.steps[1].restart, host_sim::Restart::warm);
-    EXPECT_EQ(log.steps[2].restart, host_sim::Restart::cold);
-    RlogBuilder plain;  // the same without the record of type 80h
-    plain.record(1, plain_head()).record(2, plain_step(1)).record(3, "\x01");
-    plain.record(2, plain_step(2)).record(3, "\x02").record(2, plain_step(3));
-    EXPECT_EQ(encode_rlog(log), plain.bytes);
-}
-
-TEST(Rlog, WrongRestartRecordsAreRefused) {
-    for (const std::string& payload : {std::string(1, '\0'), std::string("\x03")}) {
-        RlogBuilder builder;
-        builder.record(1, plain_head()).record(3, payload).record(2, plain_step(1));
-        EXPECT_TRUE(refused_at(builder.bytes, payload_at(builder.offsets[1], 0), "out of range"));
-    }
-    for (const std::string& payload : {std::string(), std::string("\x01\x01")}) {
-        RlogBuilder builder;
-        builder.record(1, plain_head()).record(3, payload).record(2, plain_step(1));
-        EXPECT_TRUE(refused_at(builder.bytes,
-                               payload_at(builder.offsets[1], payload.empty() ? 0 : 1),
-                               payload.empty() ? "too short" : "longer"));
-    }
-    RlogBuilder twice;
-    twice.record(1, plain_head()).record(3, "\x01").record(3, "\x01").record(2, plain_step(1));
-    EXPECT_TRUE(refused_at(twice.bytes, payload_at(twice.offsets[2], 0), "two restarts"));
-    Log log = small_log(1);
-    log.steps[0].restart = static_cast<host_sim::Restart>(3);
-    EXPECT_THROW(encode_rlog(log), LogError);
-}
-
-TEST(Rlog, ARestartWithoutItsStepIsRefusedAndSalvagedAway) {
-    RlogBuilder builder;
-    builder.record(1, plain_head()).record(2, plain_step(1)).record(3, "\x01");
-    EXPECT_TRUE(refused_at(builder.bytes, builder.offsets[2], "its step is missing"));
-    const std::size_t step_at = builder.bytes.size();
-    builder.record(2, plain_step(2));
-    for (std::size_t size = builder.offsets[2]; size < builder.bytes.size(); ++size) {
-        host_sim::Recovery recovery;
-        const std::string torn = builder.bytes.substr(0, size);
-        EXPECT_EQ(host_sim::salvage_rlog(torn, "x", recovery),
-                  builder.bytes.substr(0, builder.offsets[2]))
-            << size << " of " << step_at;
-        EXPECT_EQ(recovery.steps, 1u);
-    }
-}
-
 TEST(Rlog, APayloadSizeBeyondTheLimitIsRefused) {
     RlogBuilder builder;
     builder.record(1, plain_head());

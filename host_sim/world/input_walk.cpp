@@ -1,5 +1,5 @@
 // input_walk.cpp - see input_walk.hpp.
-#include "tests/target/input_walk.hpp"
+#include "host_sim/world/input_walk.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include "host_sim/world/course.hpp"
 #include "host_sim/world/faults.hpp"
 
-namespace target_test {
+namespace host_sim {
 
 namespace {
 
@@ -55,20 +55,18 @@ hal::Calibration InputWalk::calibration() {
     return record;
 }
 
-host_sim::DriveOptions InputWalk::course() {
+DriveOptions InputWalk::course() {
     static constexpr std::array kRoughness = {0.0, 0.0025, 0.01, 0.02, 0.04, 0.08};
-    host_sim::Vehicle vehicle = host_sim::rocky32();
+    Vehicle vehicle = rocky32();
     vehicle.speed_cm_per_s = std::array{3.0, 12.0, 35.0, 65.0}[below(4)];
-    const auto kind =
-        chance(0.5) ? host_sim::TerrainKind::fractal : host_sim::TerrainKind::wilcox1994;
-    host_sim::DriveOptions options = host_sim::random_course(
-        vehicle, kind, kRoughness[below(kRoughness.size())], 5.0, random_.bits());
-    options.advance.kind = static_cast<host_sim::AdvanceKind>(below(4));
+    const auto kind = chance(0.5) ? TerrainKind::fractal : TerrainKind::wilcox1994;
+    DriveOptions options =
+        random_course(vehicle, kind, kRoughness[below(kRoughness.size())], 5.0, random_.bits());
+    options.advance.kind = static_cast<AdvanceKind>(below(4));
     if (chance(0.3)) options.advance.mean_cm = random_.uniform(0, 3);
     if (chance(0.5)) add_exit_ramp(options, 60);
     while (chance(0.5)) {
-        for (const host_sim::Fault& fault :
-             host_sim::parse_faults(kFaultTexts[below(kFaultTexts.size())])) {
+        for (const Fault& fault : parse_faults(kFaultTexts[below(kFaultTexts.size())])) {
             options.faults.push_back(fault);
         }
     }
@@ -177,8 +175,7 @@ InputWalk::Next InputWalk::next(const hal::Commands& commands) {
     --steps_left_;
     switch (kind_) {
         case Kind::drive:
-            result.inputs =
-                drive_->step(result.reset ? host_sim::full_speed_ahead() : commands).inputs;
+            result.inputs = drive_->step(result.reset ? full_speed_ahead() : commands).inputs;
             break;
         case Kind::wander:
             wander();
@@ -192,4 +189,4 @@ InputWalk::Next InputWalk::next(const hal::Commands& commands) {
     return result;
 }
 
-}  // namespace target_test
+}  // namespace host_sim

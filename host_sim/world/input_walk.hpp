@@ -13,12 +13,12 @@
 #include "host_sim/world/drive.hpp"
 #include "host_sim/world/random.hpp"
 
-namespace target_test {
+namespace host_sim {
 
 /// Segments of 40 to 300 steps; each begins with a reset and a calibration record of its own.
 class InputWalk {
 public:
-    explicit InputWalk(uint64_t seed) : random_(host_sim::stream(seed, "walk")) {}
+    explicit InputWalk(uint64_t seed) : random_(stream(seed, "walk")) {}
 
     struct Next {
         bool reset = false;  ///< reset with `calibration` before the step
@@ -35,16 +35,16 @@ private:
     [[nodiscard]] bool chance(double share) { return random_.uniform() < share; }
     [[nodiscard]] uint16_t word() { return static_cast<uint16_t>(random_.bits() >> 48); }
     void begin();
-    [[nodiscard]] host_sim::DriveOptions course();
+    [[nodiscard]] DriveOptions course();
     [[nodiscard]] hal::Calibration calibration();
     void wander();
     [[nodiscard]] hal::RawInputs noise();
     void corrupt(hal::RawInputs& inputs);
 
-    host_sim::Random random_;
+    Random random_;
     Kind kind_ = Kind::drive;
     uint32_t steps_left_ = 0;
-    std::optional<host_sim::Drive> drive_;
+    std::optional<Drive> drive_;
     hal::Calibration calibration_;
     hal::RawInputs wandering_;
     int slope_ = 0;
@@ -54,4 +54,4 @@ private:
     double corruption_ = 0;
 };
 
-}  // namespace target_test
+}  // namespace host_sim

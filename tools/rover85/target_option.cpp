@@ -1,0 +1,63 @@
+#include "tools/rover85/target_option.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <stdexcept>
+
+#include "host_sim/bind/host_target.hpp"
+#include "tools/rover85/command_errors.hpp"
+#include "tools/rover85/image_beside.hpp"
+
+namespace fs = std::filesystem;
+
+void add_image_options(CLI::App& command, TargetOptions& options) {
+    command
+        .add_option("--image", options.image,
+                    "Image for the board, Intel HEX with its .sym beside it; else rover85.hex "
+                    "beside this program")
+        ->type_name("HEX");
+    command.add_flag("--hold", options.hold,
+                     "Let the board's tick stand still while a step takes more than 0.1 s, instead "
+                     "of failing: for images that are too slow");
+}
+
+void add_target_options(CLI::App& command, TargetOptions& options) {
+    command
+        .add_option("--target", options.target,
+                    "Where the controller runs: as a native program, or as the image on the "
+                    "simulated board")
+        ->check(CLI::IsMember({"host", "board"}))
+        ->capture_default_str();
+    add_image_options(command, options);
+}
+
+fs::path image_file(const TargetOptions& options) {
+    const fs::path image = options.image.empty() ? image_beside() : fs::path(options.image);
+    if (fs::exists(image)) return image;
+    throw std::runtime_error(fmt::format(
+        "{}: there is no such image; {}", image.string(),
+        options.image.empty() ? "build the target rover85_image, or name one with --image"
+                              : "build the target rover85_image, or correct the name"));
+}
+
+std::unique_ptr<host_sim::BoardTarget> make_board_target(const TargetOptions& options) {
+    return std::make_unique<host_sim::BoardTarget>(
+        image_file(options), options.hold ? host_sim::SlowStep::hold : host_sim::SlowStep::fail);
+}
+
+std::unique_ptr<host_sim::ControllerTarget> make_target(const TargetOptions& options) {
+    if (options.target == "board") return make_board_target(options);
+    return host_sim::make_host_target();
+}
+
+int guarded_on_target(const std::function<int()>& work) {
+    return guarded([&] {
+        try {
+            return work();
+        } catch (const host_sim::BoardError& error) {
+            fmt::print(stderr, "rover85: {}\n", error.what());
+            return int{kExitDifference};
+        }
+    });
+}

@@ -1,0 +1,35 @@
+// target_option.hpp - where the controller runs: the --target and --image options of the commands.
+// Depends on   host_sim/bind, CLI11.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "host_sim/bind/board_target.hpp"
+
+/// What --target, --image and --hold say.
+struct TargetOptions {
+    std::string target = "host";
+    std::string image;  ///< empty: the one beside the program
+    bool hold = false;
+};
+
+/// Adds --image and --hold.
+void add_image_options(CLI::App& command, TargetOptions& options);
+/// Adds --target as well.
+void add_target_options(CLI::App& command, TargetOptions& options);
+
+/// The image that the options name. @errors std::runtime_error when it does not exist
+std::filesystem::path image_file(const TargetOptions& options);
+
+/// The image on the simulated board. @errors std::runtime_error: no image, or not for this board
+std::unique_ptr<host_sim::BoardTarget> make_board_target(const TargetOptions& options);
+
+/// The target that the options name. @errors as make_board_target()
+std::unique_ptr<host_sim::ControllerTarget> make_target(const TargetOptions& options);
+
+/// As guarded(), and a board that fails is exit code 1: the image is wrong, not the input.
+int guarded_on_target(const std::function<int()>& work);
