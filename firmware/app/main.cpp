@@ -218,7 +218,7 @@ bool start_controller() {
         calibration.version = 0;
         set_fault(kFaultNoRecord);
     }
-    controller_reset(controller, calibration);
+    take_calibration(controller, calibration);
     PoseRecord record;
     if (!find_checkpoint(battery_area(), checkpoint, record)) {
         set_fault(kFaultNoCheckpoint);
@@ -294,17 +294,21 @@ bool room_to_send(uint8_t size) {
     return false;
 }
 
+struct ToSend {
+    [[gnu::noinline]] static void push(uint8_t byte) { to_send.push(byte); }
+};
+
 [[gnu::noinline]] void queue_frame(DownlinkKind kind, const volatile uint8_t* payload,
                                    uint8_t size) {
     if (!room_to_send(add_wrap(size, kFrameOverhead))) return;
-    write_frame<Downlink>(to_send, static_cast<uint8_t>(kind), payload, size);
+    ToSend sink;
+    write_frame<Downlink>(sink, static_cast<uint8_t>(kind), payload, size);
 }
 
 [[gnu::noinline]] void rover_send() {
-    if (room_to_send(commands.telemetry_size)) {
-        const uint8_t* byte = commands.telemetry;
-        for (uint8_t left = commands.telemetry_size; left != 0; --left) to_send.push(*byte++);
-    }
+    if (!room_to_send(commands.telemetry_size)) return;
+    const uint8_t* byte = commands.telemetry;
+    for (uint8_t left = commands.telemetry_size; left != 0; --left) ToSend::push(*byte++);
 }
 
 void send_status() {

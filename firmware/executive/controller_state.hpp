@@ -52,15 +52,20 @@ constexpr bool is_valid(const hal::Calibration& calibration) {
            calibration.wheel_radius_q4_mm != 0;
 }
 
-/// Puts the controller into its state after reset. A calibration record that is not valid is
+/// Gives a controller that has not run yet its calibration record. One that is not valid is
 /// replaced by the nominal one and reported as kFaultCalibration in every step.
-constexpr void controller_reset(Controller& controller, const hal::Calibration& calibration) {
-    controller = kControllerAtReset;
+constexpr void take_calibration(Controller& controller, const hal::Calibration& calibration) {
     if (is_valid(calibration)) {
         controller.calibration = calibration;
     } else {
         controller.calibration_fault = kFaultCalibration;
     }
+}
+
+/// Puts the controller into its state after reset, and take_calibration().
+constexpr void controller_reset(Controller& controller, const hal::Calibration& calibration) {
+    controller = kControllerAtReset;
+    take_calibration(controller, calibration);
 }
 
 }  // namespace rover

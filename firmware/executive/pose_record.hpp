@@ -35,9 +35,11 @@ constexpr PoseRecord pose_record(const Controller& controller) {
     record.odometer_q4_mm = odometer.travel_q4_mm;
     record.variance_q12 = map.variance_q12;
     record.drift_q12_bin = map.drift_q12_bin;
-    record.since_cycle_q4_mm =
-        narrow_sat_s16(sub_wrap(odometer.travel_q4_mm, controller.last_travel_q4_mm));
-    record.turn_q4_mm = narrow_sat_s16(sub_wrap(odometer.turn_q4_mm, controller.last_turn_q4_mm));
+    // Neither exceeds a cycle and a step: 2 m fit.
+    record.since_cycle_q4_mm = sub_wrap(narrow_wrap_s16(odometer.travel_q4_mm),
+                                        narrow_wrap_s16(controller.last_travel_q4_mm));
+    record.turn_q4_mm =
+        sub_wrap(narrow_wrap_s16(odometer.turn_q4_mm), narrow_wrap_s16(controller.last_turn_q4_mm));
     record.mean_q12_bin = map.mean_q12_bin;
     record.learned = map.learned;
     return record;

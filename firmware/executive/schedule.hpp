@@ -13,8 +13,10 @@ namespace rover {
 /// behind it.
 struct Schedule {
     uint16_t due_tick = 0;
-    uint16_t late_steps = 0;    ///< begun behind their tick, modulo 2^16
-    uint16_t missed_steps = 0;  ///< never begun: the next one was due already, modulo 2^16
+    uint16_t late_steps = 0;  ///< begun behind their tick, modulo 2^16
+    /// Never begun: the next one was due already, modulo 2^16. Volatile so that the rare loop over
+    /// them stays a loop and does not become a division.
+    volatile uint16_t missed_steps = 0;
 };
 
 constexpr bool step_is_due(const Schedule& schedule, uint16_t tick) {
@@ -24,7 +26,7 @@ constexpr bool step_is_due(const Schedule& schedule, uint16_t tick) {
 /// A step begins now. Books lateness and sets when the next one is due.
 /// @return  false: it is late
 /// @cost    one round of the loop for each missed step
-constexpr bool begin_due_step(Schedule& schedule, uint16_t tick) {
+inline bool begin_due_step(Schedule& schedule, uint16_t tick) {
     uint16_t late_ticks = sub_wrap(tick, schedule.due_tick);
     schedule.due_tick = add_wrap(schedule.due_tick, kTicksPerStep);
     if (late_ticks == 0) return true;
@@ -32,7 +34,7 @@ constexpr bool begin_due_step(Schedule& schedule, uint16_t tick) {
     while (late_ticks >= kTicksPerStep) {
         late_ticks = sub_wrap(late_ticks, kTicksPerStep);
         schedule.due_tick = add_wrap(schedule.due_tick, kTicksPerStep);
-        schedule.missed_steps = add_wrap(schedule.missed_steps, uint16_t{1});
+        schedule.missed_steps = add_wrap(uint16_t{schedule.missed_steps}, uint16_t{1});
     }
     return false;
 }
