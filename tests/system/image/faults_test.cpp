@@ -102,7 +102,7 @@ TEST(ImageFaults, EveryKindOfRomDamageKeepsTheDrivesOff) {
 /// Runs to step 1 with a bit of RAM that is always 1, seen by reads between instructions.
 bool runs_with_a_stuck_bit(ImageBench& bench, std::uint16_t address, std::uint8_t bit) {
     host_sim::StepRecord record;
-    const std::uint64_t limit = 8 * kSecondT;
+    const std::uint64_t limit = bench.now() + 10 * kSecondT;
     while (bench.steps() != 1 && bench.now() < limit) {  // the RAM test makes other values of it
         bench.board.step(record, limit);
         auto& cell = bench.board.state.memory.bytes[address];

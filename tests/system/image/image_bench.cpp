@@ -76,7 +76,7 @@ uint16_t ImageBench::word(uint16_t address) const {
 }
 
 bool ImageBench::run_to_step(uint16_t count) {
-    const uint64_t limit = now() + 4 * kSecondT + count * kStepT;
+    const uint64_t limit = now() + 10 * kSecondT + count * kStepT;
     // The RAM test makes other values of the counter for a moment: it has to be seen twice.
     for (uint16_t before = 0; now() < limit; run(2000)) {
         const uint16_t seen = steps();
@@ -93,7 +93,7 @@ void ImageBench::reset() {
 
 bool ImageBench::run_to(const std::string& symbol) {
     const uint16_t place = address(symbol);
-    const uint64_t limit = now() + 4 * kSecondT;
+    const uint64_t limit = now() + 10 * kSecondT;
     host_sim::StepRecord record;
     while (now() < limit) {
         if (board.state.cpu.pc == place) return true;

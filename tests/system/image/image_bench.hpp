@@ -54,11 +54,11 @@ public:
 
     /// Runs so many T-states.
     void run(uint64_t t) { board.run(now() + t); }
-    /// Runs until so many steps have been completed since reset. @return false: not within 4 s
+    /// Runs until so many steps have been completed since reset. @return false: not within 10 s
     bool run_to_step(uint16_t count);
     /// Presses RESET and runs until variables are cleared.
     void reset();
-    /// Runs until PC is at a symbol and an instruction begins there. @return false: not within 4 s
+    /// Runs until PC is at a symbol and an instruction begins there. @return false: not within 10 s
     bool run_to(const std::string& symbol);
 
     /// Sends bytes from the ground, one behind the other from now on.

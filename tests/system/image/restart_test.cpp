@@ -34,7 +34,7 @@ bool same(const rover::PoseRecord& a, const rover::PoseRecord& b) {
 
 /// Runs up to the first telemetry frame behind a reset.
 std::vector<std::uint8_t> next_frame(ImageBench& bench) {
-    const std::uint64_t limit = bench.now() + 5 * kSecondT;
+    const std::uint64_t limit = bench.now() + 10 * kSecondT;
     while (bench.now() < limit) {
         bench.run(kStepT / 10);
         const auto frames = bench.frames();
