@@ -42,7 +42,7 @@ struct BoardStatus {
     uint16_t reset_count = 0;      ///< modulo 2^16, since the battery was last empty
     uint16_t late_steps = 0;       ///< modulo 2^16, as all counts below
     uint16_t missed_steps = 0;     ///< steps that never were
-    uint16_t received = 0;         ///< bytes taken into the receive ring
+    uint16_t received = 0;         ///< bytes taken by a step, and dropped ones
     uint16_t receive_dropped = 0;  ///< bytes that the full ring refused
     uint16_t receive_errors = 0;   ///< overruns, framing and parity errors
     uint16_t frames_dropped = 0;   ///< frames that found no room in the transmit ring
