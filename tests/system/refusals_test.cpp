@@ -148,7 +148,7 @@ TEST(Help, OfEveryCommandTeachesByExample) {
     EXPECT_THAT(all.out, HasSubstr("Examples:"));
     const std::vector<std::string> commands = {"simulate",  "replay", "sweep",  "recover",
                                                "calibrate", "import", "report", "main-job",
-                                               "debug",     "flash"};
+                                               "debug",     "flash",  "compare"};
     for (const std::string& command : commands) {
         EXPECT_THAT(all.out, HasSubstr(command));
         const Outcome run = rover85({command, "--help"});

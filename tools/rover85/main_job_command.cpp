@@ -15,6 +15,7 @@
 #include "tools/rover85/command_errors.hpp"
 #include "tools/rover85/drive_output.hpp"
 #include "tools/rover85/progress_bar.hpp"
+#include "tools/rover85/target_option.hpp"
 
 namespace {
 
@@ -28,6 +29,7 @@ constexpr double kRampCm = 100;  // the paper's exit ramp: the first metre is kn
 struct MainJobOptions {
     std::string data = "../shared/data", out = "out/main";
     std::uint64_t seed = 1;
+    TargetOptions target;  ///< of the whole course; single profiles run on the host
 };
 
 /// The measured profiles, by file name; none when the data set is not there.
@@ -86,8 +88,9 @@ host_sim::SinkageLaw print_sinkage_laws(const fs::path& file) {
                     : host_sim::built_in_sinkage_law(host_sim::WheelKind::grouser);
 }
 
-host_sim::Log drive(const host_sim::DriveOptions& course, const host_sim::Vehicle& vehicle,
-                    std::map<std::string, std::string> notes, const std::string& label) {
+host_sim::Log drive(host_sim::ControllerTarget& target, const host_sim::DriveOptions& course,
+                    const host_sim::Vehicle& vehicle, std::map<std::string, std::string> notes,
+                    const std::string& label) {
     host_sim::LogHead head;
     head.vehicle = vehicle.toml_text;
     head.calibration = host_sim::nominal_calibration(vehicle);
@@ -95,8 +98,8 @@ host_sim::Log drive(const host_sim::DriveOptions& course, const host_sim::Vehicl
     head.notes["seed"] = fmt::format("{}", course.seed);
     host_sim::Drive world(course);
     ProgressBar bar(label);
-    return host_sim::drive_on_host(world, std::move(head),
-                                   [&bar](double share) { bar.update(share); });
+    return host_sim::drive(target, world, std::move(head),
+                           [&bar](double share) { bar.update(share); });
 }
 
 std::string percent(const report::Figure& figure) {
@@ -106,6 +109,7 @@ std::string percent(const report::Figure& figure) {
 void drive_each_profile(const std::vector<host_sim::Profile>& profiles,
                         const host_sim::SinkageLaw& law, const host_sim::Vehicle& vehicle,
                         std::uint64_t seed) {
+    const auto host = host_sim::make_host_target();
     fmt::print("Each profile by itself, after a level ramp of {:.1f} m without slip:\n",
                kRampCm / 100);
     fmt::print("  {:<20} {:>7} {:>12} {:>12} {:>14}\n", "profile", "m", "position %", "odometer %",
@@ -113,7 +117,8 @@ void drive_each_profile(const std::vector<host_sim::Profile>& profiles,
     for (const host_sim::Profile& profile : profiles) {
         auto course = host_sim::profile_course(vehicle, profile, law, kStaticSinkageCm, seed);
         host_sim::add_exit_ramp(course, kRampCm);
-        const report::Summary s = report::summarize(drive(course, vehicle, {}, profile.name));
+        const report::Summary s =
+            report::summarize(drive(*host, course, vehicle, {}, profile.name));
         fmt::print("  {:<20} {:>7.2f} {:>12} {:>12} {:>14}\n",
                    fs::path(profile.name).filename().string(), s.true_distance_m.value_or(NAN),
                    percent(s.firmware_error_percent), percent(s.wheel_error_percent),
@@ -151,7 +156,8 @@ int drive_measured_ground(const MainJobOptions& options,
     host_sim::add_exit_ramp(stitched, kRampCm);
     fmt::print("Stitched course of {:.1f} m ({} seams, each blended over {:.2f} m):\n",
                course.profile.length_m(), course.seams.size(), kBlendM);
-    write_drive_output(drive(stitched, vehicle, notes, "Driving"),
+    const auto target = make_target(options.target);
+    write_drive_output(drive(*target, stitched, vehicle, notes, "Driving"),
                        {options.out, "Traverse over measured ground of Mars", "rover85 main-job",
                         10 * (vehicle.rocker_cm + vehicle.bogie_arm_cm)});
     return kExitPass;
@@ -165,7 +171,8 @@ int drive_synthetic_ground(const MainJobOptions& options, const host_sim::Vehicl
     auto course = host_sim::random_course(vehicle, host_sim::TerrainKind::wilcox1994, 0.04, 62.5,
                                           options.seed);
     host_sim::add_exit_ramp(course, kRampCm);
-    write_drive_output(drive(course, vehicle,
+    const auto target = make_target(options.target);
+    write_drive_output(drive(*target, course, vehicle,
                              {{"source", "simulated world"},
                               {"terrain", "synthetic: Wilcox 1994, roughness 0.04"}},
                              "Driving"),
@@ -193,7 +200,12 @@ void add_main_job_command(CLI::App& app, int& exit_code) {
     command.add_option("--seed", options->seed, "Everything random follows from it")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command.footer("Example:\n  rover85 main-job --out out/main");
-    command.callback(
-        [options, &exit_code] { exit_code = guarded([&] { return main_job(*options); }); });
+    add_target_options(command, options->target);
+    command.footer(
+        "Examples:\n"
+        "  rover85 main-job --out out/main\n"
+        "  rover85 main-job --target board --out out/on_board");
+    command.callback([options, &exit_code] {
+        exit_code = guarded_on_target([&] { return main_job(*options); });
+    });
 }

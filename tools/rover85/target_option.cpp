@@ -28,6 +28,7 @@ void add_target_options(CLI::App& command, TargetOptions& options) {
                     "Where the controller runs: as a native program, or as the image on the "
                     "simulated board")
         ->check(CLI::IsMember({"host", "board"}))
+        ->take_last()
         ->capture_default_str();
     add_image_options(command, options);
 }
