@@ -1,6 +1,7 @@
 // faults_test.cpp - what the image does when ROM, RAM, stack, supply, converter or itself fails.
 #include <gtest/gtest.h>
 
+#include "firmware/executive/estimates.hpp"
 #include "tests/system/image/image_bench.hpp"
 
 namespace {
@@ -195,6 +196,45 @@ TEST(ImageFaults, UndervoltageAtBootKeepsTheDrivesOff) {
     ASSERT_TRUE(bench.run_to_step(2));
     EXPECT_EQ(bench.fault_register() & 0x100, 0x100);
     EXPECT_TRUE(motors_are_off(bench));
+}
+
+TEST(ImageFaults, ALateStepIsCountedAndSaid) {
+    ImageBench bench;
+    ASSERT_TRUE(bench.run_to_step(3));
+    ASSERT_TRUE(bench.run_to("rover_wait"));
+    // The tick jumps ahead: as if the main line had been held up for 23 ticks.
+    const std::uint16_t tick = bench.address("rover_tick_count");
+    const auto ticks = static_cast<std::uint16_t>(bench.ticks() / 10 * 10 + 33);
+    bench.board.state.memory.bytes[tick] = static_cast<std::uint8_t>(ticks & 0xFF);
+    bench.board.state.memory.bytes[tick + 1U] = static_cast<std::uint8_t>(ticks >> 8);
+    bench.frames();
+    ASSERT_TRUE(bench.run_to_step(5));
+    const auto status = bench.ask_status();
+    ASSERT_TRUE(status);
+    EXPECT_EQ(status->late_steps, 1);
+    EXPECT_EQ(status->missed_steps, 2);
+    EXPECT_EQ(status->faults, kFreshFaults | rover::kFaultStepLate);
+    // The steps behind it are at multiples of ten ticks again.
+    EXPECT_TRUE(bench.run_to_step(static_cast<std::uint16_t>(bench.steps() + 2)));
+    bench.run(kStepT / 2);
+    const auto frames = bench.frames();
+    ASSERT_FALSE(frames.empty());
+    EXPECT_EQ((frames.back().payload[2] | frames.back().payload[3] << 8) % 10, 0);
+}
+
+TEST(ImageFaults, AConverterWithoutAnEndCostsItsChannelsAndNoMoreTimeThanItsBound) {
+    ImageBench bench;
+    ASSERT_TRUE(bench.run_to_step(2));
+    bench.frames();
+    for (std::uint8_t channel = 0; channel < 5; ++channel) {
+        bench.board.replay_sensor(channel, hal::kAdcAbsent);
+    }
+    bench.run(4 * kStepT);
+    const auto frames = bench.frames();
+    ASSERT_GE(frames.size(), 3u);
+    EXPECT_EQ(frames[1].payload[4] & rover::kAvailableLinkage, 0);
+    EXPECT_NE(bench.fault_register() & rover::kFaultConverter, 0);
+    EXPECT_EQ(bench.fault_register() & rover::kFaultStepLate, 0);
 }
 
 }  // namespace

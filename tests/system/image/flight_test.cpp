@@ -118,4 +118,36 @@ TEST(ImageFlight, RangeScansAndDetectorsReachTheController) {
     EXPECT_NE(frames[0].payload[4] & rover::kAvailableLookAhead, 0);
 }
 
+TEST(ImageFlight, StartsWithinTwoAndAHalfSeconds) {
+    ImageBench bench;
+    ASSERT_TRUE(bench.run_to_step(1));
+    const std::uint64_t cold = bench.now();
+    const std::uint64_t before = bench.now();
+    bench.reset();
+    ASSERT_TRUE(bench.run_to_step(1));
+    const std::uint64_t warm = bench.now() - before;
+    std::printf("first step ends %.2f s behind power-up, %.2f s behind a reset\n",
+                static_cast<double>(cold) / image_test::kSecondT,
+                static_cast<double>(warm) / image_test::kSecondT);
+    EXPECT_LT(cold, image_test::kSecondT * 5 / 2);
+    EXPECT_LT(warm, cold);
+}
+
+// docs/spec/memory-map.md; the addresses are in firmware/config/memory_layout.hpp.
+TEST(ImageFlight, StaysInItsMemory) {
+    for (const host_sim::Symbol& symbol : image_test::program().symbols.all()) {
+        if (symbol.kind != host_sim::SymbolKind::data || symbol.address < 0x8000) continue;
+        EXPECT_LE(symbol.address + symbol.size, 0x8800u) << symbol.name;
+    }
+    ImageBench bench;
+    ASSERT_TRUE(bench.run_to_step(1));
+    auto& memory = bench.board.state.memory.bytes;
+    for (std::size_t i = 0x8800; i < 0xFDFC; ++i) memory[i] = 0xE5;
+    bench.send_frame(2, {});
+    bench.drive(100, 5 * kStepT);
+    ASSERT_TRUE(bench.run_to_step(20));
+    for (std::size_t i = 0x8800; i < 0xFDFC; ++i) ASSERT_EQ(memory[i], 0xE5) << i;
+    for (std::size_t i = 0xFDFC; i < 0xFE00; ++i) EXPECT_EQ(memory[i], 0xB7) << i;
+}
+
 }  // namespace
