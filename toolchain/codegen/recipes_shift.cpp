@@ -273,6 +273,55 @@ void add_three_right_by_left(Ways& ways, const Coder& start, const Operation& op
     }
 }
 
+// The same of four bytes with all of the result: from HL through DE into a fifth register.
+void add_four_right_by_left(Ways& ways, const Coder& start, const Operation& operation) {
+    const Bytes& left = operation.left;
+    const Bytes& results = operation.results;
+    const unsigned count = kByteBits - operation.immediate;
+    const bool is_signed = operation.opcode == Opcode::shift_right_signed;
+    if (results.size() != 4 || count > 3 || !start.needed(results.back(), true)) return;
+    add_way(ways, start, [&](Coder& coder) {
+        coder.load(Pair::de, left[2], left[3]);
+        coder.copy_out(Pair::de, true, true);
+        coder.lock(Pair::de);
+        take_hl(coder, left[0], left[1]);
+        coder.lock(Pair::hl);
+        coder.vacate(Register::a, true);
+        coder.vacate(Pair::bc, true);
+        if (coder.failed || !coder.holds(Pair::de, left[2], left[3])) {
+            coder.failed = true;
+            return;
+        }
+        if (is_signed) {
+            coder.emit(mov(Register::a, Register::d));
+            coder.emit(op::kRal);
+            coder.emit(0x9F);  // SBB A
+        } else {
+            coder.emit(0xAF);  // XRA A
+        }
+        for (unsigned i = 0; i < count; ++i) {
+            coder.emit(mov(Register::b, Register::a));
+            coder.emit(by_pair(op::kDad, Pair::hl));
+            for (const Register which : {Register::e, Register::d}) {
+                coder.emit(mov(Register::a, which));
+                coder.emit(op::kRal);
+                coder.emit(mov(which, Register::a));
+            }
+            coder.emit(mov(Register::a, Register::b));
+            coder.emit(op::kRal);
+        }
+        // A, D, E, H hold the result from the top: as words in HL and DE.
+        coder.emit(mov(Register::l, Register::h));
+        coder.emit(mov(Register::h, Register::e));
+        coder.emit(mov(Register::e, Register::d));
+        coder.emit(mov(Register::d, Register::a));
+        coder.set(Pair::bc, kNone, kNone);
+        coder.set(Pair::hl, results[0], results[1]);
+        coder.set(Pair::de, results[2], results[3]);
+        coder.set(Register::a, results[3]);
+    });
+}
+
 // The same of three or four bytes, where the highest of the result is not needed.
 void add_long_right_by_left(Ways& ways, const Coder& start, const Operation& operation) {
     const Bytes& left = operation.left;
@@ -369,6 +418,7 @@ void add_shifts(Ways& ways, const Coder& start, const Operation& operation) {
     add_steps_right(ways, start, operation);
     add_right_by_left(ways, start, operation);
     add_three_right_by_left(ways, start, operation);
+    add_four_right_by_left(ways, start, operation);
     add_long_right_by_left(ways, start, operation);
 }
 
