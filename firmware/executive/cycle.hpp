@@ -50,16 +50,22 @@ constexpr bool can_look_ahead(const LinkagePose& pose, bool scan_fresh) {
     }
 }
 
-/// Rim travel since the last cycle in 1/64 bin; the remainder is carried to the next.
+/// Rim travel since the last cycle in 1/64 bin, rounded down, saturating; the remainder is carried to
+/// the next. 1/16 mm times 4/25.
 constexpr int16_t cycle_odometer_q6_bin(Controller& controller) {
     const int32_t travel_q4_mm =
         sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm);
     controller.last_travel_q4_mm = controller.odometer.travel_q4_mm;
     const int32_t scaled =
         add_wrap(shift_left_wrap<2>(travel_q4_mm), widen_s32(controller.odometer_rest_q6));
-    const int32_t whole = div_floor(scaled, int32_t{25});
-    controller.odometer_rest_q6 = narrow_wrap_s16(sub_wrap(scaled, mul_wrap(whole, int32_t{25})));
-    return narrow_sat_s16(whole);
+    const bool back = scaled < 0;
+    const uint32_t magnitude =
+        back ? add_wrap(abs_u32(scaled), uint32_t{24}) : narrow_wrap_u32(scaled);
+    const int16_t whole = narrow_sat_s16(div_floor_sat_u16(magnitude, uint16_t{25}));
+    const int16_t result = back ? neg_wrap(whole) : whole;
+    controller.odometer_rest_q6 = sub_wrap(narrow_wrap_s16(scaled), mul_wrap(result, int16_t{25}));
+    if (whole == kMaxOf<int16_t>) controller.odometer_rest_q6 = 0;  // the rest was not told
+    return result;
 }
 
 /// Which cycle, if any, is due after this step's odometry?
