@@ -53,7 +53,13 @@ volatile uint8_t trap_count;
 
 // -- The main line's own -------------------------------------------------------------------------
 
-Controller controller;
+/// Cleared by the start-up, then set_initial_values(): its initial value would be 440 bytes of ROM.
+union ControllerPlace {
+    uint8_t cleared = 0;
+    Controller value;
+};
+ControllerPlace controller_place;
+Controller& controller = controller_place.value;
 hal::RawInputs inputs;
 hal::Commands commands;
 Schedule schedule;
@@ -217,6 +223,7 @@ void take_over_status() {
 
 /// Controller from calibration record and checkpoint. @return  true: warm
 bool start_controller() {
+    set_initial_values(controller);
     hal::Calibration calibration;
     uint8_t bytes[kCalibrationBytes];
     if (read_record(battery_area() + battery::kCalibration, bytes, kCalibrationBytes)) {

@@ -20,6 +20,8 @@ struct ScanWatch {
     bool seen = false;                    ///< a scan has ever arrived
 };
 
+inline constexpr uint16_t kNoSlipShareQ15 = 32768;
+
 /// Everything the controller remembers.
 struct Controller {
     hal::Calibration calibration;
@@ -34,13 +36,24 @@ struct Controller {
     int32_t cycle_travel_q4_mm = kCycleTravelQ4Mm;  ///< odometer when the next forward cycle is due
     int32_t last_travel_q4_mm = 0;                  ///< odometer at the last cycle
     int32_t last_turn_q4_mm = 0;
-    int16_t odometer_rest_q6 = 0;      ///< remainder of the conversion to 1/64 bin, [0, 24]
-    int32_t cycle_position_q4_mm = 0;  ///< position at the last cycle
-    uint16_t share_q15 = 32768;        ///< learned advance of a rim travel, [5460, 32768]
-    Side side = Side::none;            ///< side whose linkage made the map
+    int16_t odometer_rest_q6 = 0;          ///< remainder of the conversion to 1/64 bin, [0, 24]
+    int32_t cycle_position_q4_mm = 0;      ///< position at the last cycle
+    uint16_t share_q15 = kNoSlipShareQ15;  ///< learned advance of a rim travel, [5460, 32768]
+    Side side = Side::none;                ///< side whose linkage made the map
     bool resting = false;
     int16_t rest_middle_q4_mm = 0, rest_front_q4_mm = 0;  ///< heights when the wheels stopped
 };
+
+/// Turns a controller whose bytes are all 0 into Controller{}: an image then needs no copy of it.
+constexpr void set_initial_values(Controller& controller) {
+    controller.calibration = hal::Calibration{};
+    controller.scan.age_steps = kScanStaleSteps;
+    controller.map.mean_q12_bin = slip::kMeanNoSlipQ12Bin;
+    controller.map.rough_q8_mm = slip::kInitialRoughQ8Mm;
+    controller.map.match_cost_q10 = slip::kInitialCostQ10;
+    controller.cycle_travel_q4_mm = kCycleTravelQ4Mm;
+    controller.share_q15 = kNoSlipShareQ15;
+}
 
 /// Copied as a whole: assigning field by field is longer than the copy.
 inline constexpr Controller kControllerAtReset{};

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <ctime>
 #include <string>
@@ -23,6 +24,14 @@ constexpr double kCompileSeconds = 10;
 uint64_t number_from(const char* variable, uint64_t otherwise) {
     const char* text = std::getenv(variable);
     return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
+}
+
+// What the image does instead of copying the initial value from ROM.
+TEST(SetInitialValues, TurnsZeroBytesIntoAFreshController) {
+    alignas(rover::Controller) std::array<unsigned char, sizeof(rover::Controller)> bytes = {};
+    auto* controller = reinterpret_cast<rover::Controller*>(bytes.data());
+    rover::set_initial_values(*controller);
+    EXPECT_EQ(record_of(*controller).bytes(), record_of(rover::Controller{}).bytes());
 }
 
 class ControllerMir : public testing::TestWithParam<Level> {};
