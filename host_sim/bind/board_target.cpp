@@ -64,11 +64,25 @@ void BoardTarget::fail(const std::string& what, const std::string& advice) const
 
 void BoardTarget::run(uint64_t until_t) {
     const uint64_t resets = board_.state.reset_count;
-    check(board_.run(until_t));
+    check(observer_ ? run_observed(until_t) : board_.run(until_t));
     if (!awaiting_reset_ && board_.state.reset_count != resets) {
         fail("the watchdog has reset the board",
              "find what kept the main loop from finishing its step");
     }
+}
+
+RunEnd BoardTarget::run_observed(uint64_t until_t) {
+    while (board_.state.cpu.t < until_t) {
+        const RunEnd end = step_once(until_t);
+        if (end != RunEnd::time_limit) return end;
+    }
+    return RunEnd::time_limit;
+}
+
+RunEnd BoardTarget::step_once(uint64_t until_t) {
+    const RunEnd end = board_.step(record_, until_t);
+    if (observer_ && end == RunEnd::time_limit) observer_(record_, board_.state.cpu);
+    return end;
 }
 
 /// Refuses an end that is not that of time.
@@ -100,9 +114,8 @@ uint64_t BoardTarget::tick_of_step_t(uint64_t step) const {
 
 /// Up to the entry of the function in which a step reads its inputs.
 void BoardTarget::run_to_acquire(uint64_t limit_t) {
-    StepRecord record;
     while (board_.state.cpu.pc != acquire_at_) {
-        check(board_.step(record, limit_t));
+        check(step_once(limit_t));
         if (board_.state.cpu.t >= limit_t) fail("the image does not begin its step");
     }
 }

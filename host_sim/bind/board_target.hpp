@@ -12,9 +12,11 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host_sim/bind/controller_target.hpp"
@@ -69,6 +71,11 @@ public:
     [[nodiscard]] const std::vector<DownlinkFrame>& other_frames() const { return other_frames_; }
     [[nodiscard]] const Board& board() const { return board_; }
 
+    /// Hears of every step of the processor from now on, with its state behind it: for profiles.
+    /// Nothing that the board does changes by it, but it runs about fifteen times slower.
+    using StepObserver = std::function<void(const StepRecord&, const CpuState&)>;
+    void observe(StepObserver observer) { observer_ = std::move(observer); }
+
 private:
     struct Awaited {
         std::size_t index;    ///< of the step in the log
@@ -80,6 +87,8 @@ private:
     [[noreturn]] void fail(const std::string& what, const std::string& advice = {}) const;
 
     void run(uint64_t until_t);
+    RunEnd run_observed(uint64_t until_t);
+    RunEnd step_once(uint64_t until_t);
     void check(RunEnd end) const;
     void run_to_acquire(uint64_t limit_t);
     void run_to_first_step();
@@ -105,6 +114,8 @@ private:
     void await_end(uint64_t begin_t);
     void hold_tick(uint64_t next_step);
 
+    StepObserver observer_;
+    StepRecord record_;  ///< of the last step; kept, because clearing it takes as long as the step
     SlowStep slow_step_;
     std::string name_;  ///< of the image's file
     Symbols symbols_;

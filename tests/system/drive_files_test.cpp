@@ -16,6 +16,7 @@ using system_test::Outcome;
 using system_test::read_bytes;
 using system_test::rover85;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kRampM = 1.0;  // the level exit ramp before every course
 
@@ -147,6 +148,38 @@ TEST(Recover, SavesTheWholeRecordsOfATornLogAndTheyReplay) {
     ASSERT_LT(saved.steps.size(), driven.steps.size());
     driven.steps.resize(saved.steps.size());
     EXPECT_EQ(first_difference(driven, saved), "");
+}
+
+// On the board the report shows the machine, step by step and across a restart; a native drive has
+// no such section.
+TEST(DriveOnTheBoard, ReportsTheMachine) {
+    const Folder folder;
+    const auto drive = [&](const std::string& target) {
+        return rover85({"simulate", "--length", "0.3", "--ramp", "0", "--reset-at", "2.95",
+                        "--target", target, "--out", folder / target});
+    };
+    ASSERT_EQ(drive("board").exit_code, 0);
+    ASSERT_EQ(drive("host").exit_code, 0);
+    EXPECT_THAT(read_bytes(folder / "host/report.html"), Not(HasSubstr("id=\"machine\"")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "host/machine.json"));
+    const std::string page = read_bytes(folder / "board/report.html");
+    EXPECT_THAT(page, HasSubstr("id=\"machine\""));
+    EXPECT_THAT(page, HasSubstr("T-states a step"));
+    const auto machine = nlohmann::json::parse(read_bytes(folder / "board/machine.json"));
+    const auto main_line_t = machine["main_line_t"].get<std::vector<std::uint32_t>>();
+    const auto interrupts_t = machine["interrupts_t"].get<std::vector<std::uint32_t>>();
+    EXPECT_EQ(main_line_t.size(), host_sim::load_log(folder / "board/traverse.rlog").steps.size());
+    // A step takes between 10,000 T and its 0.1 s; ten ticks and a telemetry frame between 2,000 T
+    // and the 15 % of it that are allowed. The first step ends with the boot's remainder.
+    for (std::size_t i = 1; i < main_line_t.size(); ++i) {
+        if (i >= 29 && i <= 31) continue;  // around the restart
+        ASSERT_GT(main_line_t[i], 10'000u) << i;
+        ASSERT_LT(main_line_t[i], 307'200u) << i;
+        ASSERT_GT(interrupts_t[i], 2'000u) << i;
+        ASSERT_LT(interrupts_t[i], 46'080u) << i;
+    }
+    ASSERT_EQ(rover85({"report", folder / "board"}).exit_code, 0);
+    EXPECT_THAT(read_bytes(folder / "board/report.html"), HasSubstr("id=\"machine\""));
 }
 
 TEST(MainJob, WithoutDataDrivesASyntheticCourseAndSaysSo) {

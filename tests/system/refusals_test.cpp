@@ -146,9 +146,9 @@ TEST(Help, OfEveryCommandTeachesByExample) {
     const Outcome all = rover85({"--help"});
     EXPECT_EQ(all.exit_code, 0);
     EXPECT_THAT(all.out, HasSubstr("Examples:"));
-    const std::vector<std::string> commands = {"simulate",  "replay", "sweep",  "recover",
-                                               "calibrate", "import", "report", "main-job",
-                                               "debug",     "flash",  "compare"};
+    const std::vector<std::string> commands = {"simulate",  "replay", "sweep",   "recover",
+                                               "calibrate", "import", "report",  "main-job",
+                                               "debug",     "flash",  "compare", "budget"};
     for (const std::string& command : commands) {
         EXPECT_THAT(all.out, HasSubstr(command));
         const Outcome run = rover85({command, "--help"});

@@ -250,6 +250,25 @@ void add_wheels(const Log& log, std::vector<Chart>& charts) {
               charts);
 }
 
+void add_machine(const Log& log, const Machine& machine, std::vector<Chart>& charts) {
+    const auto column = [](const std::vector<std::uint32_t>& t_states) {
+        return Column(t_states.begin(), t_states.end());
+    };
+    if (machine.main_line_t.size() != log.steps.size() ||
+        machine.interrupts_t.size() != log.steps.size()) {
+        return;
+    }
+    add_chart({"t_states",
+               "T-states a step",
+               "T",
+               "Work of the processor in each control step; 0.1 s are 307,200 T-states.",
+               0,
+               {{"Main line", "firmware", column(machine.main_line_t), {}},
+                {"Interrupts", "wheels", column(machine.interrupts_t), {}}},
+               {}},
+              charts);
+}
+
 }  // namespace
 
 std::vector<Chart> charts_of(const Log& log, const Track& track, const ReportOptions& options) {
@@ -260,6 +279,7 @@ std::vector<Chart> charts_of(const Log& log, const Track& track, const ReportOpt
     add_attitude(log, charts);
     add_heights(log, charts);
     if (track.source != PlaceSource::truth) add_wheels(log, charts);
+    if (options.machine) add_machine(log, *options.machine, charts);
     return charts;
 }
 

@@ -116,6 +116,7 @@ std::string report_html(const host_sim::Log& log, const ReportOptions& options) 
     if (!charts.empty() || !lanes.empty()) out += kToolbar;
     out += timeline_section(lanes, summary);
     out += charts_section(charts);
+    if (options.machine) out += machine_section(*options.machine);
     out += events_section(spans, left_out, track, options);
     out += sensors_section(summary);
     out += provenance_section(log, summary, options);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host_sim/log/log.hpp"
+#include "tools/report/machine.hpp"
 #include "tools/report/summary.hpp"
 
 namespace report {
@@ -21,6 +22,9 @@ struct ReportOptions {
     /// Horizontal distance from rear to front wheel on level ground. When given, the ground chart
     /// draws what the front wheel met where it met it; else where the rear wheel then stood.
     std::optional<double> front_wheel_ahead_mm;
+
+    /// Of a drive on the board. Its steps are shown when they are as many as the log's.
+    std::optional<Machine> machine;
 
     std::size_t rows_per_chart_max = 4000;  ///< longer logs are drawn decimated, extremes kept
     std::size_t events_max = 250;           ///< rows of the table of events

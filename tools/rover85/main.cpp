@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/rover85/budget_command.hpp"
 #include "tools/rover85/calibrate_command.hpp"
 #include "tools/rover85/command_errors.hpp"
 #include "tools/rover85/compare_command.hpp"
@@ -43,6 +44,7 @@ int main(int argc, char** argv) {
     add_report_command(app, exit_code);
     add_debug_command(app, exit_code);
     add_flash_command(app, exit_code);
+    add_budget_command(app, exit_code);
     add_main_job_command(app, exit_code);
     try {
         app.parse(argc, argv);

@@ -102,6 +102,16 @@ host_sim::Log drive(host_sim::ControllerTarget& target, const host_sim::DriveOpt
                            [&bar](double share) { bar.update(share); });
 }
 
+/// The traverse itself, where the options say.
+void drive_and_report(const MainJobOptions& options, const host_sim::DriveOptions& course,
+                      const host_sim::Vehicle& vehicle, std::map<std::string, std::string> notes,
+                      const std::string& title) {
+    const auto target = make_target(options.target);
+    const host_sim::Log log = drive(*target, course, vehicle, std::move(notes), "Driving");
+    write_drive_output(log, {options.out, title, "rover85 main-job",
+                             10 * (vehicle.rocker_cm + vehicle.bogie_arm_cm), machine_of(*target)});
+}
+
 std::string percent(const report::Figure& figure) {
     return figure ? fmt::format("{:+8.2f}", *figure) : std::string("     n/a");
 }
@@ -156,10 +166,7 @@ int drive_measured_ground(const MainJobOptions& options,
     host_sim::add_exit_ramp(stitched, kRampCm);
     fmt::print("Stitched course of {:.1f} m ({} seams, each blended over {:.2f} m):\n",
                course.profile.length_m(), course.seams.size(), kBlendM);
-    const auto target = make_target(options.target);
-    write_drive_output(drive(*target, stitched, vehicle, notes, "Driving"),
-                       {options.out, "Traverse over measured ground of Mars", "rover85 main-job",
-                        10 * (vehicle.rocker_cm + vehicle.bogie_arm_cm)});
+    drive_and_report(options, stitched, vehicle, notes, "Traverse over measured ground of Mars");
     return kExitPass;
 }
 
@@ -171,13 +178,10 @@ int drive_synthetic_ground(const MainJobOptions& options, const host_sim::Vehicl
     auto course = host_sim::random_course(vehicle, host_sim::TerrainKind::wilcox1994, 0.04, 62.5,
                                           options.seed);
     host_sim::add_exit_ramp(course, kRampCm);
-    const auto target = make_target(options.target);
-    write_drive_output(drive(*target, course, vehicle,
-                             {{"source", "simulated world"},
-                              {"terrain", "synthetic: Wilcox 1994, roughness 0.04"}},
-                             "Driving"),
-                       {options.out, "Traverse over synthetic ground", "rover85 main-job",
-                        10 * (vehicle.rocker_cm + vehicle.bogie_arm_cm)});
+    drive_and_report(
+        options, course, vehicle,
+        {{"source", "simulated world"}, {"terrain", "synthetic: Wilcox 1994, roughness 0.04"}},
+        "Traverse over synthetic ground");
     return kExitPass;
 }
 
@@ -202,6 +206,9 @@ void add_main_job_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     add_target_options(command, options->target);
     command.footer(
+        "Single profiles are driven natively; --target is where the course is driven. On the "
+        "board\n"
+        "every step is measured, and the report shows T-states, interrupt load, ROM and RAM.\n"
         "Examples:\n"
         "  rover85 main-job --out out/main\n"
         "  rover85 main-job --target board --out out/on_board");

@@ -35,14 +35,15 @@ int replay(const ReplayOptions& options) {
         host_sim::replay(*target, log, [&bar](double share) { bar.update(share); });
     }
     write_drive_output(log, {options.out, "Replay of " + options.log,
-                             "rover85 replay " + options.log, std::nullopt});
+                             "rover85 replay " + options.log, std::nullopt, machine_of(*target)});
     return kExitPass;
 }
 
-int report(const std::string& folder) {
+int report_again(const std::string& folder) {
     const std::filesystem::path log = std::filesystem::path(folder) / "traverse.rlog";
     write_drive_output(host_sim::load_log(log),
-                       {folder, "Traverse report", "rover85 report " + folder, std::nullopt});
+                       {folder, "Traverse report", "rover85 report " + folder, std::nullopt,
+                        read_machine(folder)});
     return kExitPass;
 }
 
@@ -78,5 +79,5 @@ void add_report_command(CLI::App& app, int& exit_code) {
     command.add_option("DIR", *folder, "Folder of an earlier drive")->required();
     command.footer("Example:\n  rover85 report out/main");
     command.callback(
-        [folder, &exit_code] { exit_code = guarded([&] { return report(*folder); }); });
+        [folder, &exit_code] { exit_code = guarded([&] { return report_again(*folder); }); });
 }

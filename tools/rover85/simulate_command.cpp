@@ -142,7 +142,7 @@ int simulate(const SimulateOptions& options, const std::string& command_line) {
                    drive.state().position_cm / 100);
     }
     write_drive_output(log, {options.out, "Simulated traverse", command_line,
-                             10 * (vehicle.rocker_cm + vehicle.bogie_arm_cm)});
+                             10 * (vehicle.rocker_cm + vehicle.bogie_arm_cm), machine_of(*target)});
     return kExitPass;
 }
 

@@ -6,10 +6,19 @@
 #include <stdexcept>
 
 #include "host_sim/bind/host_target.hpp"
+#include "tools/budget/profiled_target.hpp"
 #include "tools/rover85/command_errors.hpp"
 #include "tools/rover85/image_beside.hpp"
 
 namespace fs = std::filesystem;
+
+namespace {
+
+host_sim::SlowStep slow_step(const TargetOptions& options) {
+    return options.hold ? host_sim::SlowStep::hold : host_sim::SlowStep::fail;
+}
+
+}  // namespace
 
 void add_image_options(CLI::App& command, TargetOptions& options) {
     command
@@ -43,13 +52,21 @@ fs::path image_file(const TargetOptions& options) {
 }
 
 std::unique_ptr<host_sim::BoardTarget> make_board_target(const TargetOptions& options) {
-    return std::make_unique<host_sim::BoardTarget>(
-        image_file(options), options.hold ? host_sim::SlowStep::hold : host_sim::SlowStep::fail);
+    return std::make_unique<host_sim::BoardTarget>(image_file(options), slow_step(options));
 }
 
 std::unique_ptr<host_sim::ControllerTarget> make_target(const TargetOptions& options) {
-    if (options.target == "board") return make_board_target(options);
+    if (options.target == "board") {
+        return std::make_unique<rover_budget::ProfiledTarget>(image_file(options),
+                                                              slow_step(options));
+    }
     return host_sim::make_host_target();
+}
+
+std::optional<report::Machine> machine_of(const host_sim::ControllerTarget& target) {
+    const auto* measured = dynamic_cast<const rover_budget::ProfiledTarget*>(&target);
+    if (measured == nullptr) return {};
+    return measured->machine();
 }
 
 int guarded_on_target(const std::function<int()>& work) {

@@ -1,14 +1,16 @@
 // target_option.hpp - where the controller runs: the --target and --image options of the commands.
-// Depends on   host_sim/bind, CLI11.
+// Depends on   host_sim/bind, tools/budget, CLI11.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "host_sim/bind/board_target.hpp"
+#include "tools/report/machine.hpp"
 
 /// What --target, --image and --hold say.
 struct TargetOptions {
@@ -28,8 +30,12 @@ std::filesystem::path image_file(const TargetOptions& options);
 /// The image on the simulated board. @errors std::runtime_error: no image, or not for this board
 std::unique_ptr<host_sim::BoardTarget> make_board_target(const TargetOptions& options);
 
-/// The target that the options name. @errors as make_board_target()
+/// The target that the options name; on the board every step is measured.
+/// @errors as make_board_target()
 std::unique_ptr<host_sim::ControllerTarget> make_target(const TargetOptions& options);
+
+/// What the steps of a target of make_target() cost; nothing on the host.
+std::optional<report::Machine> machine_of(const host_sim::ControllerTarget& target);
 
 /// As guarded(), and a board that fails is exit code 1: the image is wrong, not the input.
 int guarded_on_target(const std::function<int()>& work);

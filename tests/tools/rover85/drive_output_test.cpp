@@ -31,6 +31,17 @@ TEST(DriveOutput, WritesFourFilesAndPrintsWhereTheReportIs) {
     EXPECT_TRUE(text.text().ends_with("Report: " + out + "/report.html\n")) << text.text();
 }
 
+TEST(DriveOutput, KeepsWhatTheBoardCostAndForgetsItWithTheNextDrive) {
+    const rover85_test::TestFolder folder("drive_output_machine");
+    const std::string out = folder.file("out");
+    const rover85_test::Capture text(std::cout);
+    const report::Machine machine{"an image", {1, 2}, {3, 4}, {{"ROM", 1, 2, "bytes"}}};
+    write_drive_output(two_steps(), {out, "Title", "", std::nullopt, machine});
+    EXPECT_EQ(read_machine(out), machine);
+    write_drive_output(two_steps(), {out, "Title", "", std::nullopt});
+    EXPECT_EQ(read_machine(out), std::nullopt);
+}
+
 TEST(DriveOutput, AFileInThePlaceOfTheFolderIsNamed) {
     const rover85_test::TestFolder folder("drive_output_refused");
     std::ofstream(folder.file("taken")) << "in the way";

@@ -30,6 +30,7 @@ TEST(TargetOption, HostIsTheDefaultAndOthersAreRefused) {
     const auto target = make_target(options);
     target->begin({});
     EXPECT_EQ(target->identity(), host_sim::host_image_identity());
+    EXPECT_EQ(machine_of(*target), std::nullopt) << "only the board is measured";
     EXPECT_EQ(parse(options, {"--target", "moon"}), kExitUsage);
 }
 
