@@ -97,7 +97,7 @@ inline void make_tick_gaps(std::vector<host_sim::LogStep>& steps) {
     unsigned tick = 65'000;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         steps[i].inputs.tick_count = static_cast<std::uint16_t>(tick);
-        tick += i % 17 == 16 ? 30 : i == 40 ? 0 : i == 90 ? 20'000 : 10;
+        tick += i % 17 == 16 ? 30U : i == 40 ? 0U : i == 90 ? 20'000U : 10U;
     }
 }
 
