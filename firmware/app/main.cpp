@@ -81,15 +81,23 @@ volatile uint8_t& main_faults() {
 volatile uint8_t& trap_faults() {
     return battery_area()[battery::kFaults + 1];
 }
-void set_fault(BoardFault fault) {
+[[gnu::noinline]] void set_fault(BoardFault fault) {
     main_faults() = bit_or(uint8_t{main_faults()}, static_cast<uint8_t>(fault));
 }
 bool drives_are_stopped() {
     return bit_or(bit_and(uint8_t{main_faults()}, kFaultsThatStop), uint8_t{trap_faults()}) != 0;
 }
 
+/// The content of a record. Here structs have no padding: their bytes are those of the page.
+static_assert(sizeof(hal::Calibration) == kCalibrationBytes);
+template <class Content>
+const Content* stored(uint8_t record) {
+    const uint16_t content = hal::rb85::kCheckpointFirst + kRecordContent;
+    return reinterpret_cast<const Content*>(add_wrap(content, widen_u16(record)));
+}
+
 /// A u16 that an interrupt counts up.
-uint16_t read_shared(const volatile uint16_t& value) {
+[[gnu::noinline]] uint16_t read_shared(const volatile uint16_t& value) {
     Bus::disable_interrupts();
     const uint16_t seen = value;
     Bus::enable_interrupts();
@@ -162,7 +170,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 
 // -- Boot ----------------------------------------------------------------------------------------
 
-void start_parts() {
+[[gnu::noinline]] void start_parts() {
     Parts::Motors::all_off();
     Parts::PpiA::set_mode<hal::rb85::kPpiAMode>();
     Parts::PpiB::set_mode<hal::rb85::kPpiBMode>();
@@ -177,7 +185,7 @@ void start_parts() {
     Parts::Usart::reset();
 }
 
-bool image_is_intact() {
+[[gnu::noinline]] bool image_is_intact() {
     const volatile uint8_t* at = identity_bytes() + __builtin_offsetof(Identity, image_size);
     const uint8_t low = at[0];
     const uint8_t high = at[1];
@@ -188,7 +196,7 @@ bool image_is_intact() {
 }
 
 /// @param all  else only what the image uses
-bool ram_holds(bool all) {
+[[gnu::noinline]] bool ram_holds(bool all) {
     auto* const first = reinterpret_cast<volatile uint8_t*>(hal::rb85::kRamFirst);
     if (!address_lines_hold(first, 0x4000)) return false;
     uint8_t page = narrow_wrap_u8(uint16_t{hal::rb85::kRamFirst / 256});
@@ -203,7 +211,7 @@ bool ram_holds(bool all) {
 }
 
 /// What the last run has left, before it is overwritten.
-void take_over_status() {
+[[gnu::noinline]] void take_over_status() {
     volatile uint8_t* const area = battery_area();
     status.reset_cause =
         reset_cause(timer_kept_its_mode<Bus>(), area[battery::kMark], area[battery::kQuietTicks]);
@@ -222,23 +230,19 @@ void take_over_status() {
 }
 
 /// Controller from calibration record and checkpoint. @return  true: warm
-bool start_controller() {
+[[gnu::noinline]] bool start_controller() {
     set_initial_values(controller);
-    hal::Calibration calibration;
-    uint8_t bytes[kCalibrationBytes];
-    if (read_record(battery_area() + battery::kCalibration, bytes, kCalibrationBytes)) {
-        read_calibration(bytes, calibration);
+    if (record_is_valid(battery_area() + battery::kCalibration, kCalibrationBytes)) {
+        take_calibration(controller, *stored<hal::Calibration>(battery::kCalibration));
     } else {
-        calibration.version = 0;
+        controller.calibration_fault = kFaultCalibration;
         set_fault(kFaultNoRecord);
     }
-    take_calibration(controller, calibration);
-    PoseRecord record;
-    if (!find_checkpoint(battery_area(), checkpoint, record)) {
+    if (!find_checkpoint(battery_area(), checkpoint)) {
         set_fault(kFaultNoCheckpoint);
         return false;
     }
-    controller_resume(controller, record);
+    controller_resume(controller, *stored<PoseRecord>(checkpoint.slot));
     return true;
 }
 
@@ -264,18 +268,26 @@ bool start_controller() {
 
 // -- The step ------------------------------------------------------------------------------------
 
+/// Sleeps until an interrupt, with interrupts disabled before: one that waits already ends it. A
+/// function of its own, so that nothing comes between the two instructions: EI takes effect behind
+/// the next one, and a tick between them would be slept over.
+[[gnu::noinline]] void enable_and_halt() {
+    Bus::enable_interrupts();
+    Bus::halt();
+}
+
 /// Sleeps until a step is due.
 [[gnu::noinline]] void rover_wait() {
     for (;;) {
         Bus::disable_interrupts();
         const uint16_t tick = rover_tick_count;
         if (step_is_due(schedule, tick)) {
+            const bool on_time = begin_due_step(schedule, tick);
             Bus::enable_interrupts();
-            if (!begin_due_step(schedule, tick)) set_fault(kFaultStepLate);
+            if (!on_time) set_fault(kFaultStepLate);
             return;
         }
-        Bus::enable_interrupts();
-        Bus::halt();  // an interrupt before it ends it
+        enable_and_halt();
     }
 }
 
@@ -302,7 +314,7 @@ bool start_controller() {
 }
 
 /// Is there room for so many bytes? Else a frame is lost.
-bool room_to_send(uint8_t size) {
+[[gnu::noinline]] bool room_to_send(uint8_t size) {
     if (to_send.room() >= size) return true;
     status.frames_dropped = add_wrap(status.frames_dropped, uint16_t{1});
     return false;
@@ -325,7 +337,7 @@ struct ToSend {
     for (uint8_t left = commands.telemetry_size; left != 0; --left) ToSend::push(*byte++);
 }
 
-void send_status() {
+[[gnu::noinline]] void send_status() {
     status.faults = bit_or(widen_u16(uint8_t{main_faults()}),
                            shift_left_wrap<8>(widen_u16(uint8_t{trap_faults()})));
     status.late_steps = schedule.late_steps;
@@ -339,17 +351,18 @@ void send_status() {
                 sizeof status);
 }
 
-AckResult store_calibration() {
+[[gnu::noinline]] AckResult store_calibration() {
     if (uplink.size != kCalibrationBytes) return AckResult::wrong_size;
-    hal::Calibration calibration;
-    read_calibration(reinterpret_cast<const uint8_t(&)[kCalibrationBytes]>(uplink.payload),
-                     calibration);
-    if (!is_valid(calibration)) return AckResult::refused;
-    write_record(battery_area() + battery::kCalibration, 0, uplink.payload, kCalibrationBytes);
+    uint8_t* const bytes = uplink.payload;
+    for (uint8_t i = 0; i < hal::kAngleChannelCount; ++i) {
+        if (bytes[6 + 5 * i] > 1) return AckResult::refused;  // `inverted`
+    }
+    if (!is_valid(*reinterpret_cast<const hal::Calibration*>(bytes))) return AckResult::refused;
+    write_record(battery_area() + battery::kCalibration, 0, bytes, kCalibrationBytes);
     return AckResult::done;
 }
 
-AckResult prepare_restart() {
+[[gnu::noinline]] AckResult prepare_restart() {
     if (uplink.size != 1) return AckResult::wrong_size;
     if (uplink.payload[0] > static_cast<uint8_t>(RestartKind::cold)) return AckResult::refused;
     const bool cold = uplink.payload[0] == static_cast<uint8_t>(RestartKind::cold);
@@ -359,7 +372,7 @@ AckResult prepare_restart() {
     return AckResult::done;
 }
 
-void answer_frame() {
+[[gnu::noinline]] void answer_frame() {
     AckResult result = AckResult::unknown_type;
     switch (static_cast<UplinkType>(uplink.type)) {
         case UplinkType::identity:

@@ -53,20 +53,20 @@ constexpr void write_record(Byte* place, uint8_t sequence, const Content* conten
     *state = kRecordValid;
 }
 
-/// Copies a record's content.
-/// @return  false: the record is not valid, and `content` holds anything
-template <class Byte, class Content>
-constexpr bool read_record(const Byte* place, Content* content, uint8_t size) {
+/// Is the record whole?
+template <class Byte>
+[[gnu::noinline]] constexpr bool record_is_valid(const Byte* place, uint8_t size) {
     if (uint8_t{*place} != kRecordValid) return false;
-    uint16_t crc = crc16_add(kCrc16Start, uint8_t{*++place});
-    for (; size != 0; --size) {
-        const uint8_t byte = *++place;
-        *content++ = byte;
-        crc = crc16_add(crc, byte);
+    uint16_t crc = kCrc16Start;
+    for (uint8_t left = add_wrap(size, uint8_t{1}); left != 0; --left) {
+        crc = crc16_add(crc, uint8_t{*++place});
     }
     const uint8_t low = *++place;
     const uint8_t high = *++place;
     return low == narrow_wrap_u8(crc) && high == narrow_wrap_u8(shift_floor<8>(crc));
 }
+
+/// Where the content of a record begins.
+inline constexpr uint8_t kRecordContent = 2;
 
 }  // namespace rover

@@ -28,27 +28,28 @@ constexpr void save_checkpoint(Byte* area, CheckpointPlace& newest, const PoseRe
                  sizeof record);
 }
 
-/// Reads one slot. @return false: not valid, or of another format
+/// Can a slot be used: is it whole, and of this format?
 template <class Byte>
-constexpr bool read_checkpoint(const Byte* area, uint8_t slot, PoseRecord& record) {
-    return read_record(area + slot, reinterpret_cast<uint8_t*>(&record), sizeof record) &&
-           record.format == kPoseRecordFormat;
+constexpr bool checkpoint_is_valid(const Byte* area, uint8_t slot) {
+    const Byte* place = area + slot;
+    return record_is_valid(place, sizeof(PoseRecord)) &&
+           uint8_t{place[kRecordContent + sizeof(PoseRecord) - 1]} == kPoseRecordFormat;
 }
 
-/// Finds the newest valid checkpoint.
+/// Finds the newest valid checkpoint. Its record is at area + newest.slot + kRecordContent.
 /// @param newest  set so that the next save_checkpoint() replaces an older or an invalid one
-/// @return        false: there is none, and `record` holds anything
+/// @return        false: there is none
 template <class Byte>
-constexpr bool find_checkpoint(const Byte* area, CheckpointPlace& newest, PoseRecord& record) {
+constexpr bool find_checkpoint(const Byte* area, CheckpointPlace& newest) {
     const uint8_t in_a = area[battery::kSlotA + 1];
     const uint8_t in_b = area[battery::kSlotB + 1];
-    newest.slot = battery::kSlotB;
-    if (narrow_wrap_s8(sub_wrap(in_a, in_b)) > 0) newest.slot = battery::kSlotA;
-    if (!read_checkpoint(area, newest.slot, record)) {
+    const bool a_first = narrow_wrap_s8(sub_wrap(in_a, in_b)) > 0;
+    newest.slot = a_first ? battery::kSlotA : battery::kSlotB;
+    if (!checkpoint_is_valid(area, newest.slot)) {
         newest.slot = bit_xor(newest.slot, battery::kOtherSlot);
-        if (!read_checkpoint(area, newest.slot, record)) return false;
+        if (!checkpoint_is_valid(area, newest.slot)) return false;
     }
-    newest.sequence = newest.slot == battery::kSlotA ? in_a : in_b;
+    newest.sequence = area[add_wrap(newest.slot, uint8_t{1})];
     return true;
 }
 

@@ -61,14 +61,15 @@ ImageBench::ImageBench()
 
 uint16_t ImageBench::address(const std::string& symbol) const {
     const host_sim::Symbol* found = program().symbols.find(symbol);
-    if (found == nullptr) {
-        for (const host_sim::Symbol& each : program().symbols.all()) {
-            // Names of the image's own functions are in two namespaces: look at the end.
-            if (each.name.find(symbol) != std::string::npos) return each.address;
+    if (found != nullptr) return found->address;
+    // Names of the image's own are in two namespaces, those of functions end in parameters.
+    for (const host_sim::Symbol& each : program().symbols.all()) {
+        const std::string name = "::" + each.name;
+        if (name.ends_with("::" + symbol) || name.find("::" + symbol + "(") != std::string::npos) {
+            return each.address;
         }
-        throw std::out_of_range(symbol);
     }
-    return found->address;
+    throw std::out_of_range(symbol);
 }
 
 uint16_t ImageBench::word(uint16_t address) const {

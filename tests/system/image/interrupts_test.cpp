@@ -160,6 +160,28 @@ TEST(ImageInterrupts, LatencyInAStorm) {
     for (const auto& [vector, worst] : watch.worst_latency) EXPECT_LE(worst, 400u) << vector;
 }
 
+// A character that ends the sleep just before the step's tick: whatever instruction of the main
+// line's look at the clock the tick meets, the step begins.
+TEST(ImageInterrupts, NoTickIsSleptOver) {
+    ImageBench start;
+    ASSERT_TRUE(start.run_to_step(4));
+    const auto snapshot = start.board.state;
+    const std::uint16_t due = 40;
+    while (start.ticks() < due) start.run(4);
+    const std::uint64_t tick_t = start.now();
+    for (std::uint64_t before = 0; before < 700; before += 2) {
+        ImageBench bench;
+        bench.board.state = snapshot;
+        bench.board.schedule({.t = tick_t - kCharacterT - before,
+                              .kind = Stimulus::Kind::serial_byte,
+                              .value = 0x55});
+        bench.run(tick_t + 2000 - bench.now());
+        ASSERT_TRUE(bench.run_to("rover_control")) << before;
+        ASSERT_LT(bench.now() - tick_t, 30'000u) << before;
+        ASSERT_EQ(bench.fault_register() & rover::kFaultStepLate, 0) << before;
+    }
+}
+
 TEST(ImageInterrupts, AfterAStormTheCountersAddUp) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         SCOPED_TRACE(seed);
