@@ -15,7 +15,7 @@ namespace rover {
 /// What the vehicle did since the last cycle.
 enum class CycleMotion : uint8_t { forward, reverse, turn, moved };
 
-inline constexpr uint8_t kLookAheadMax = 8;
+inline constexpr uint8_t kLookAheadMax = 2;
 
 /// One cycle's measurements, made by the kinematics from raw counts.
 struct MapGridInput {
