@@ -20,8 +20,9 @@ constexpr uint64_t kStepT = 10 * kTickT;
 constexpr uint64_t kBootMaxT = 10ULL * rb85::kClockHz;
 constexpr uint64_t kAnswerMaxT = 20 * kStepT;
 constexpr uint64_t kWatchdogMaxT = 2ULL * rb85::kClockHz;
-/// So fine is the search for the end of the boot: less than its way to the first step.
-constexpr uint64_t kBootSliceT = 100;
+/// So fine is the search for the end of the boot: less than what lies between the EI at its end and
+/// the DI of the main loop (a return and a call at least, 32 T).
+constexpr uint64_t kBootSliceT = 16;
 constexpr uint64_t kSliceT = 4096;
 constexpr std::string_view kAcquire = "rover_acquire";
 
