@@ -62,6 +62,25 @@ TEST_P(GoldenBoard, TheImageGivesTheReviewedEstimatesAndTheHostsBytes) {
 INSTANTIATE_TEST_SUITE_P(Courses, GoldenBoard, testing::ValuesIn(system_test::kGoldenCourses),
                          [](const auto& course) { return std::string(course.param.name); });
 
+// Who observes sees every T-state and changes nothing.
+TEST(BoardTargets, AnObservedRunEndsInTheSameState) {
+    const Log golden = host_sim::load_log(system_test::golden_file(system_test::kGoldenCourses[0]));
+    BoardTarget plain{std::filesystem::path(ROVER_IMAGE)};
+    BoardTarget observed{std::filesystem::path(ROVER_IMAGE)};
+    std::uint64_t seen_t = 0, gaps = 0;
+    observed.observe([&](const host_sim::StepRecord& step, const host_sim::CpuState& after) {
+        gaps += step.t_begin != seen_t || after.t != step.t_end ? 1 : 0;
+        seen_t = step.t_end;
+    });
+    Log first = golden, second = golden;
+    host_sim::replay(plain, first);
+    host_sim::replay(observed, second);
+    EXPECT_EQ(text(host_sim::compare_outputs(first, second)), "");
+    EXPECT_TRUE(plain.board().state == observed.board().state);
+    EXPECT_EQ(seen_t, observed.board().state.cpu.t);
+    EXPECT_EQ(gaps, 0u);
+}
+
 // Random drives, faults, calibrations, noise, resets, ticks that leap, rubbish on the link.
 TEST(BoardTargets, RandomLogsAreBitIdentical) {
     constexpr std::uint64_t kFirstSeed = 1, kLogs = kFast ? 200 : 12;

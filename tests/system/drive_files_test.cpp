@@ -180,6 +180,11 @@ TEST(DriveOnTheBoard, ReportsTheMachine) {
     }
     ASSERT_EQ(rover85({"report", folder / "board"}).exit_code, 0);
     EXPECT_THAT(read_bytes(folder / "board/report.html"), HasSubstr("id=\"machine\""));
+    ASSERT_EQ(rover85({"replay", folder / "board/traverse.rlog", "--target", "board",
+                       "--no-profile", "--out", folder / "board"})
+                  .exit_code,
+              0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "board/machine.json"));
 }
 
 TEST(MainJob, WithoutDataDrivesASyntheticCourseAndSaysSo) {

@@ -12,16 +12,17 @@
 #include "host_sim/bind/board_target.hpp"
 #include "tools/report/machine.hpp"
 
-/// What --target, --image and --hold say.
+/// What --target, --image, --hold and --no-profile say.
 struct TargetOptions {
     std::string target = "host";
     std::string image;  ///< empty: the one beside the program
     bool hold = false;
+    bool no_profile = false;  ///< on the board: do not measure every step
 };
 
 /// Adds --image and --hold.
 void add_image_options(CLI::App& command, TargetOptions& options);
-/// Adds --target as well.
+/// Adds --target and --no-profile as well.
 void add_target_options(CLI::App& command, TargetOptions& options);
 
 /// The image that the options name. @errors std::runtime_error when it does not exist
@@ -34,7 +35,7 @@ std::unique_ptr<host_sim::BoardTarget> make_board_target(const TargetOptions& op
 /// @errors as make_board_target()
 std::unique_ptr<host_sim::ControllerTarget> make_target(const TargetOptions& options);
 
-/// What the steps of a target of make_target() cost; nothing on the host.
+/// What the steps of a target of make_target() cost; nothing where they were not measured.
 std::optional<report::Machine> machine_of(const host_sim::ControllerTarget& target);
 
 /// As guarded(), and a board that fails is exit code 1: the image is wrong, not the input.

@@ -142,6 +142,50 @@ TEST(StepProfile, AnInterruptIsNobodysStepTime) {
     EXPECT_LE(trap.worst_latency_t, 12u + 18 + 2);
 }
 
+/// Latency of an RST 7.5 that asked at `asked_t`, whose mask opened at T 80, and whose acceptance
+/// ended at T 112, from records made by hand.
+uint64_t latency_of(uint64_t asked_t) {
+    const host_sim::Symbols symbols = host_sim::read_symbols(kSymbols, "a.sym");
+    const std::vector<uint16_t> module_of(65536, kWork);
+    StepProfile profile({&symbols, &kModules, &module_of, kStepCount, 0x9000});
+    profile.begin("a");
+    profile.count_steps();
+    host_sim::CpuState cpu;
+    cpu.sp = 0x9000;
+    const auto instruction = [&](uint64_t begin_t, uint64_t end_t) {
+        StepRecord record;
+        record.pc = record.next_pc = 0x0100;
+        record.sp = record.next_sp = cpu.sp;
+        record.t_begin = begin_t;
+        record.t_end = cpu.t = end_t;
+        record.accesses[0].value = 0x00;  // NOP
+        record.access_count = 1;
+        return record;
+    };
+    profile.observe(instruction(70, 76), cpu);
+    cpu.masks = 0;
+    profile.observe(instruction(76, 80), cpu);
+    StepRecord accepted = instruction(100, 112);
+    accepted.kind = StepRecord::Kind::rst75;
+    accepted.next_pc = 0x003C;
+    accepted.next_sp = cpu.sp = 0x8FFE;
+    cpu.rst75_latched_t = asked_t;
+    profile.observe(accepted, cpu);
+    StepRecord counts = instruction(112, 122);
+    counts.accesses[1] = {host_sim::BusAccess::Kind::write, kStepCount, 1, 122};
+    counts.access_count = 2;
+    profile.observe(counts, cpu);
+    EXPECT_EQ(profile.figures().steps, 1u);
+    return profile.figures()
+        .inputs[static_cast<std::size_t>(InterruptInput::rst75)]
+        .worst_latency_t;
+}
+
+TEST(StepProfile, AMaskIsNoLatencyButDisabledInterruptsAre) {
+    EXPECT_EQ(latency_of(60), 112u - 80u);
+    EXPECT_EQ(latency_of(90), 112u - 90u);
+}
+
 TEST(StepProfile, AResetBeginsAnew) {
     Profiled program;
     program.run(kFirstEndT + kRoundT);

@@ -160,6 +160,18 @@ TEST_F(FlashCommand, AFileThatCannotBeWrittenIsNamed) {
     EXPECT_NE(outcome.err.find("part.bin: cannot be written"), std::string::npos);
 }
 
+// What is written there is not there when it is read.
+TEST_F(FlashCommand, AFileThatDoesNotReadBackIsADifference) {
+    std::filesystem::create_symlink("/dev/null", out);
+    const Outcome outcome = flash_to_out();
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.out.find("part.bin: first wrong address 0000H: nothing instead of 76H; 32768 "
+                               "of 32768 bytes are wrong"),
+              std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("verified  " + folder.file("part.hex")), std::string::npos);
+}
+
 TEST_F(FlashCommand, BackendsThatDoNotExistYetSaySo) {
     for (const std::string backend : {"serial", "board"}) {
         const Outcome outcome = flash({hex, "--backend", backend});
