@@ -151,10 +151,12 @@ DownlinkFrame BoardTarget::ask(UplinkType type, const std::vector<uint8_t>& payl
                      static_cast<double>(kAnswerMaxT) / rb85::kClockHz));
 }
 
-/// From reset: the boot ends with interrupts enabled, right before the first step.
+/// From reset: the boot ends with the tick's mask open, right before the first step.
 void BoardTarget::run_to_first_step() {
     const uint64_t limit_t = board_.state.cpu.t + kBootMaxT;
-    while (!board_.state.cpu.interrupt_enable) {
+    // The mask of the tick opens at the end of the boot and stays open; interrupts are disabled again
+    // for a while before the first step.
+    while ((board_.state.cpu.masks & mask::kRst75) != 0) {
         if (board_.state.cpu.t >= limit_t) fail("the image does not boot");
         run(board_.state.cpu.t + kBootSliceT);
     }
