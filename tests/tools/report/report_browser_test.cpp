@@ -142,6 +142,25 @@ TEST_F(ReportInBrowser, BareVehicleRendersAtBothWidths) {
     }
 }
 
+TEST_F(ReportInBrowser, ADriveOnTheBoardRendersAtBothWidths) {
+    report::ReportOptions options = full_options();
+    options.machine =
+        report::Machine{"rover85 0.1.0 sources 1a2b3c4d vehicle Rocky3.2, 20062 bytes",
+                        std::vector<std::uint32_t>(1500, 80'000),
+                        std::vector<std::uint32_t>(1500, 18'000),
+                        {{"Longest step, main line", 163'513, 307'200, "T-states"},
+                         {"Time in interrupts", 15.25, 15, "%"}}};
+    for (std::size_t i = 0; i < 1500; i += 7) options.machine->main_line_t[i] = 160'000;
+    for (const int width : {1280, 390}) {
+        const std::string name = "machine-" + std::to_string(width);
+        show(report_test::full_drive(1500), options, width, name);
+        expect_clean_page();
+        expect_fits(width);
+        expect_charts_drawn(9, width);
+        keep_picture(name);
+    }
+}
+
 TEST_F(ReportInBrowser, DarkPagesRenderToo) {
     show(report_test::full_drive(1500), full_options(), 1280, "dark-1280", "dark");
     expect_clean_page();
