@@ -20,9 +20,8 @@ constexpr uint64_t kStepT = 10 * kTickT;
 constexpr uint64_t kBootMaxT = 10ULL * rb85::kClockHz;
 constexpr uint64_t kAnswerMaxT = 20 * kStepT;
 constexpr uint64_t kWatchdogMaxT = 2ULL * rb85::kClockHz;
-/// So fine is the search for the end of the boot: less than what lies between the EI at its end and
-/// the DI of the main loop (a return and a call at least, 32 T).
-constexpr uint64_t kBootSliceT = 16;
+/// So coarse is the search for the end of the boot.
+constexpr uint64_t kBootSliceT = 50'000;
 constexpr uint64_t kSliceT = 4096;
 constexpr std::string_view kAcquire = "rover_acquire";
 
@@ -151,16 +150,25 @@ DownlinkFrame BoardTarget::ask(UplinkType type, const std::vector<uint8_t>& payl
                      static_cast<double>(kAnswerMaxT) / rb85::kClockHz));
 }
 
-/// From reset: the boot ends with the tick's mask open, right before the first step.
+/// From reset: the boot ends when it lets the tick through, shortly before the first step. The
+/// slice in which it does is run once more, an instruction at a time. An observer sees all
+/// instructions once, so with one nothing is taken back.
 void BoardTarget::run_to_first_step() {
     const uint64_t limit_t = board_.state.cpu.t + kBootMaxT;
-    // The mask of the tick opens at the end of the boot and stays open; interrupts are disabled again
-    // for a while before the first step.
-    while ((board_.state.cpu.masks & mask::kRst75) != 0) {
-        if (board_.state.cpu.t >= limit_t) fail("the image does not boot");
-        run(board_.state.cpu.t + kBootSliceT);
+    if (observer_) {
+        run_to_acquire(limit_t);
+        return;
     }
-    run_to_acquire(board_.state.cpu.t + kTickT);
+    for (;;) {
+        const BoardState before = board_.state;
+        run(board_.state.cpu.t + kBootSliceT);
+        if ((board_.state.cpu.masks & mask::kRst75) == 0) {
+            board_.state = before;
+            break;
+        }
+        if (board_.state.cpu.t >= limit_t) fail("the image does not boot");
+    }
+    run_to_acquire(board_.state.cpu.t + kBootSliceT + kTickT);
 }
 
 /// The image stands at its first step. Its tick is the one that it counts now.
