@@ -50,8 +50,8 @@ constexpr bool can_look_ahead(const LinkagePose& pose, bool scan_fresh) {
     }
 }
 
-/// Rim travel since the last cycle in 1/64 bin, rounded down, saturating; the remainder is carried to
-/// the next. 1/16 mm times 4/25.
+/// Rim travel since the last cycle in 1/64 bin, rounded down, saturating; the remainder is carried
+/// to the next. 1/16 mm times 4/25.
 constexpr int16_t cycle_odometer_q6_bin(Controller& controller) {
     const int32_t travel_q4_mm =
         sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm);
