@@ -86,12 +86,18 @@ private:
         }
     }
 
-    // What a state is worth beyond its cost: values at hand that are needed soon.
+    // What a state is worth beyond its cost: values at hand that are needed soon. A second copy is
+    // worth nothing more, or every load would be followed by a move.
     [[nodiscard]] double promise(const Coder& coder) const {
         double sum = 0;
+        std::array<ByteId, kRegisters.size()> seen{};
+        std::size_t seen_count = 0;
         for (const Register which : kRegisters) {
             const ByteId byte = coder.content(which);
             if (byte == kNone) continue;
+            const auto seen_end = seen.begin() + static_cast<std::ptrdiff_t>(seen_count);
+            const bool again = std::find(seen.begin(), seen_end, byte) != seen_end;
+            if (!again) seen[seen_count++] = byte;
             const bool computed = facts_.computed(byte);
             if (!computed) {
                 sum += 0.5;
@@ -100,7 +106,7 @@ private:
             const uint32_t use = coder.next_use(byte);
             if (use == kNone || use < coder.position) continue;
             const double distance = use - coder.position;
-            sum += (coder.in_slot(byte) ? 6.0 : 12.0) / (1.5 + 0.25 * distance);
+            if (!again) sum += (coder.in_slot(byte) ? 6.0 : 12.0) / (1.5 + 0.25 * distance);
             if ((wishes_.registers[block_facts_.local.find(byte)] & set_of(which)) != 0) sum += 4;
         }
         return sum;
