@@ -261,6 +261,8 @@ bool Interpreter::call_runtime(Frame& frame, const Operation& operation, const s
     if (name == "__mul8s" || name == "__smul16w") {
         set(frame, operation.results,
             static_cast<uint64_t>(signed_argument(0) * signed_argument(1)));
+    } else if (name == "__mul8_s16w") {
+        set(frame, operation.results, argument(0) * static_cast<uint64_t>(signed_argument(1)));
     } else if (name.starts_with("__mul") || name.starts_with("__umul")) {
         set(frame, operation.results, Wide{argument(0)} * argument(1));
     } else if (name.starts_with("__udiv")) {

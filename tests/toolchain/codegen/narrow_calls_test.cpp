@@ -190,7 +190,8 @@ TEST(NarrowChoice, OfMultiplication) {
     EXPECT_EQ(routines({"__mul", 2, kWord, kByte, 2, false}), "__mul8_16");
     EXPECT_EQ(routines({"__mul", 2, kWord, kWord, 1, false}), "__mul8");
     EXPECT_EQ(routines({"__mul", 4, kSignedWord, kSignedWord, 4, false}), "__smul16w");
-    EXPECT_EQ(routines({"__mul", 4, kSignedWord, kByte, 4, false}), "__smul16w");
+    EXPECT_EQ(routines({"__mul", 4, kSignedWord, kByte, 4, false}), "__mul8_s16w");
+    EXPECT_EQ(routines({"__mul", 4, kSignedWord, kByte, 2, false}), "__mul8_16");
     EXPECT_EQ(routines({"__mul", 4, kWord, kWord, 4, false}), "__umul16w");
     EXPECT_EQ(routines({"__mul", 4, kWord, kByte, 4, false}), "__mul8_16w");
     EXPECT_EQ(routines({"__mul", 4, kWord, kSignedWord, 4, false}), "__umul16w");

@@ -119,10 +119,11 @@ private:
             const char* name;
             std::size_t left, right, result;
         };
-        static constexpr std::array<Routine, 14> kRoutines = {{{"__mul8", 1, 1, 2},
+        static constexpr std::array<Routine, 15> kRoutines = {{{"__mul8", 1, 1, 2},
                                                                {"__mul16", 2, 2, 2},
                                                                {"__umul16w", 2, 2, 4},
                                                                {"__smul16w", 2, 2, 4},
+                                                               {"__mul8_s16w", 1, 2, 3},
                                                                {"__mul32", 4, 4, 4},
                                                                {"__mul64", 8, 8, 8},
                                                                {"__shl16", 2, 1, 2},
