@@ -333,8 +333,7 @@ struct ToSend {
 
 [[gnu::noinline]] void rover_send() {
     if (!room_to_send(commands.telemetry_size)) return;
-    const uint8_t* byte = commands.telemetry;
-    for (uint8_t left = commands.telemetry_size; left != 0; --left) ToSend::push(*byte++);
+    to_send.push_all(commands.telemetry, commands.telemetry_size);
 }
 
 [[gnu::noinline]] void send_status() {

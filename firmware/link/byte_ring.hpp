@@ -73,6 +73,18 @@ struct PageRing {
         written = add_wrap(uint8_t{written}, uint8_t{1});
     }
 
+    /// Many bytes; the consumer sees them all at once, behind the last.
+    /// @pre      room() is at least `count`
+    /// @context  the producer alone
+    void push_all(const uint8_t* from, uint8_t count) {
+        uint8_t place = written;
+        for (; count != 0; --count) {
+            bytes[place] = *from++;
+            place = add_wrap(place, uint8_t{1});
+        }
+        written = place;
+    }
+
     /// @pre      not empty
     /// @return   by `is_last` whether it is empty now
     /// @context  the consumer alone

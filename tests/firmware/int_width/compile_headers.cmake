@@ -14,7 +14,7 @@ foreach(header ${headers})
   execute_process(
     COMMAND ${CLANG} --target=msp430-none-elf -std=c++20 -ffreestanding -fno-exceptions -fno-rtti
       -fpack-struct=1 -fsyntax-only -Wall -Wextra -Werror -I${ROOT}
-      -I${ROOT}/firmware/config/native ${OUT}/alone.cpp
+      -I${ROOT}/firmware/config/native -I${ROOT}/toolchain/include ${OUT}/alone.cpp
     RESULT_VARIABLE result ERROR_VARIABLE text)
   if(NOT result EQUAL 0)
     string(APPEND failures "${header}:\n${text}\n")

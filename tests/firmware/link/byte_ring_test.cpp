@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <random>
+#include <vector>
 
 namespace {
 
@@ -79,6 +80,25 @@ TEST(PageRing, IsAQueueOf255BytesAtEveryPhase) {
             model.pop_front();
             ASSERT_EQ(is_last, model.empty());
         }
+    }
+}
+
+TEST(PageRing, ManyBytesAreAsManySingleOnes) {
+    alignas(256) static rover::PageRing ring;
+    ring.begin();
+    std::uint8_t next_in = 0;
+    std::uint8_t next_out = 0;
+    for (unsigned count = 0; count <= 255; ++count) {  // at ever other places of the page
+        std::vector<std::uint8_t> bytes(count);
+        for (std::uint8_t& byte : bytes) byte = next_in++;
+        ring.push_all(bytes.data(), static_cast<std::uint8_t>(count));
+        ASSERT_EQ(ring.room(), 255 - count);
+        for (unsigned left = count; left != 0; --left) {
+            bool is_last = false;
+            ASSERT_EQ(ring.pop(is_last), next_out++);
+            ASSERT_EQ(is_last, left == 1);
+        }
+        ASSERT_TRUE(ring.empty());
     }
 }
 

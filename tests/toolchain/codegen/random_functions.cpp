@@ -135,10 +135,9 @@ private:
                                                                {"__udiv32", 4, 4, 8},
                                                                {"__sdiv16", 2, 2, 4}}};
         const Routine& routine = kRoutines[chance(kRoutines.size())];
-        const std::string name = routine.name;
         const Bytes left = value(routine.left);
         Bytes right = value(routine.right);
-        if (name.find("div") != std::string::npos) {
+        if (std::string_view(routine.name).find("div") != std::string_view::npos) {
             // Never 0, and never -1.
             right[0] = builder_.bitwise(Opcode::bit_or, {right[0]}, builder_.constant(2, 1))[0];
             right[0] = builder_.bitwise(Opcode::bit_and, {right[0]}, builder_.constant(0x7E, 1))[0];
@@ -146,7 +145,8 @@ private:
             right = builder_.bitwise(Opcode::bit_and, right,
                                      builder_.constant(8 * routine.left - 1, 1));
         }
-        const Bytes result = builder_.call(module_.intern(name), {left, right}, routine.result);
+        const SymbolId called = module_.intern(routine.name);
+        const Bytes result = builder_.call(called, {left, right}, routine.result);
         keep(result);
         if (one_in(3)) keep({result.begin(), result.begin() + 1});
     }
@@ -463,10 +463,7 @@ private:
 };
 
 Variable variable(Module& module, const char* name, uint32_t size) {
-    Variable result;
-    result.symbol = module.intern(name);
-    result.size = size;
-    return result;
+    return {.symbol = module.intern(name), .size = size};
 }
 
 }  // namespace

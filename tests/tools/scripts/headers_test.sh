@@ -14,7 +14,7 @@ for header in "${headers[@]}"; do
 done
 
 options=(-std=c++20 -ffreestanding -fno-exceptions -fno-rtti -fsyntax-only
-    -I. -Ifirmware/config/native
+    -I. -Ifirmware/config/native -Itoolchain/include
     -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion)
 for target in x86_64-linux-gnu msp430-none-elf; do
     find "$scratch" -name '*.cpp' -print0 |
