@@ -2,7 +2,7 @@
 // Depends on   config/vehicle.hpp, core/sine.hpp, inputs/angles.hpp.
 // Source       docs/design/controller.md, "Kinematics": z(1), z(2) from rocker and bogie angle,
 //              z(3) ... from the range samples in the body frame.
-// Bounds       four sines and cosines per step, two more and four products per range sample.
+// Bounds       two sines per step; in a cycle four more, and four products per range sample.
 #pragma once
 
 #include "firmware/config/vehicle.hpp"
