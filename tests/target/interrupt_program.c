@@ -11,16 +11,25 @@ volatile uint32_t sums[KINDS];
 volatile uint8_t broken; /* critical sections that were none */
 volatile uint32_t result;
 
-/* Multiplication, division, shifts, memory of its own: everything that must not be shared. */
-static __attribute__((noinline)) uint32_t mix(uint16_t a, uint16_t b) {
-    uint8_t digits[6];
-    uint32_t sum = 0;
-    uint16_t rest = (uint16_t)(a ^ b * 77U);
-    for (uint8_t i = 0; i < sizeof digits; ++i) {
+/* Know where their caller's digits are: each copy of the caller has its own of these. */
+static __attribute__((noinline)) void clear(uint8_t* digits) {
+    digits[0] = 0;
+    digits[5] = 0;
+}
+static __attribute__((noinline)) void split(uint8_t* digits, uint16_t rest) {
+    clear(digits);
+    for (uint8_t i = 0; i < 6; ++i) {
         I85_LOOP_BOUND(6);
         digits[i] = (uint8_t)(rest % 10U);
         rest /= 10U;
     }
+}
+
+/* Multiplication, division, shifts, memory of its own: everything that must not be shared. */
+static __attribute__((noinline)) uint32_t mix(uint16_t a, uint16_t b) {
+    uint8_t digits[6];
+    uint32_t sum = 0;
+    split(digits, (uint16_t)(a ^ b * 77U));
     for (uint8_t i = sizeof digits; i-- > 0;) {
         I85_LOOP_BOUND(6);
         sum = sum * 31U + (uint32_t)(digits[i] << (b & 7U));

@@ -61,7 +61,7 @@ private:
         for (std::size_t i = 0; i < in_.module.functions.size(); ++i) functions_[name(i)] = i;
         references_.resize(in_.module.functions.size());
         for (const Section& section : program_.sections) {
-            if (section.kind == SectionKind::frame) has_frame_.insert(section.function);
+            if (section.kind == SectionKind::frame) note_frame(section);
             if (section.kind == SectionKind::persistent) shared_memory_.insert(section.name);
             if (section.kind != SectionKind::code) continue;
             Names& names = references_[functions_.at(section.name)];
@@ -69,6 +69,14 @@ private:
                 const std::string_view reference = assembly::reference_of(item);
                 if (!reference.empty() && !assembly::is_local(reference)) names.emplace(reference);
             }
+        }
+    }
+
+    // A caller's variable is memory of the callee that knows its place, too.
+    void note_frame(const Section& section) {
+        has_frame_.insert(section.function);
+        for (const Item& item : section.items) {
+            if (item.kind == assembly::ItemKind::label) shared_memory_.insert(item.operand.symbol);
         }
     }
 
@@ -251,7 +259,7 @@ private:
 
     std::map<std::string, std::size_t> functions_;
     std::set<std::string> has_frame_;      ///< names of functions
-    std::set<std::string> shared_memory_;  ///< arguments and results of calls through pointers
+    std::set<std::string> shared_memory_;  ///< frames; arguments and results through pointers
     std::vector<Names> references_;        ///< by function
     std::vector<bool> state_;              ///< by function: it or a callee has memory
     std::map<std::string, std::vector<std::size_t>> cells_;

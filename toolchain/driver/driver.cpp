@@ -210,6 +210,7 @@ private:
 
     void prepare() {
         clock_.begin("prepare");
+        if (request_.level != ir::Optimisation::none) ir::fix_places(*whole_);
         ir::prepare(*whole_);
         std::string problem;
         llvm::raw_string_ostream stream(problem);

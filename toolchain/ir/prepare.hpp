@@ -18,6 +18,11 @@ enum class Optimisation : uint8_t { none, less, more, size };
 /// LLVM's own pipeline for that level, without vectors and unrolling.
 void optimise(llvm::Module& module, Optimisation level);
 
+/// Pointer parameters that always hold the same address are replaced by it; variables of a caller
+/// become internal ones with kFrameAttribute, which select() gives back to its static frame.
+void fix_places(llvm::Module& module);
+inline constexpr const char* kFrameAttribute = "i85-frame";  ///< its value: the function
+
 /// Replaces what select() does not know.
 void prepare(llvm::Module& module);
 

@@ -18,6 +18,7 @@
 #include "toolchain/ir/constants.hpp"
 #include "toolchain/ir/constructors.hpp"
 #include "toolchain/ir/loop_bounds.hpp"
+#include "toolchain/ir/prepare.hpp"
 #include "toolchain/ir/refuse.hpp"
 #include "toolchain/ir/selector.hpp"
 
@@ -77,6 +78,7 @@ codegen::Function Selector::run() {
     freezes_ = std::any_of(inst_begin(function_), inst_end(function_), [](const auto& instruction) {
         return llvm::isa<llvm::FreezeInst>(instruction);
     });
+    take_variables();
     make_blocks();
     const llvm::ReversePostOrderTraversal<const llvm::Function*> order(&function_);
     for (const llvm::BasicBlock* block : order) fill_block(*block);
@@ -85,6 +87,19 @@ codegen::Function Selector::run() {
         select_terminator(*block->getTerminator());
     }
     return std::move(result_);
+}
+
+// Variables of the frame that callees know by name.
+void Selector::take_variables() {
+    for (const llvm::GlobalVariable& variable : function_.getParent()->globals()) {
+        if (!variable.hasAttribute(kFrameAttribute) || variable.use_empty()) continue;
+        if (variable.getAttribute(kFrameAttribute).getValueAsString() != function_.getName()) {
+            continue;
+        }
+        const auto size = layout_.getTypeAllocSize(variable.getValueType()).getFixedValue();
+        result_.frame.push_back({out_.intern(variable.getName().str()), static_cast<uint32_t>(size),
+                                 static_cast<uint32_t>(variable.getAlign().valueOrOne().value())});
+    }
 }
 
 // What a block's parameters are made of: a value each.
@@ -379,6 +394,7 @@ codegen::Module select(const llvm::Module& module) {
     codegen::Module result;
     for (const llvm::GlobalVariable& variable : module.globals()) {
         if (variable.getName().starts_with("llvm.") || variable.isDeclarationForLinker()) continue;
+        if (variable.hasAttribute(kFrameAttribute)) continue;  // see Selector::run()
         result.variables.push_back(make_variable(result, module.getDataLayout(), variable));
     }
     for (const llvm::Function& function : module) {

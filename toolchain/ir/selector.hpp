@@ -25,6 +25,7 @@ public:
 private:
     using Bytes = codegen::Bytes;
 
+    void take_variables();
     void make_blocks();
     void fill_block(const llvm::BasicBlock& block);
     void add_parameter(codegen::Block& block, const Bytes& bytes);
