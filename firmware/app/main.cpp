@@ -58,9 +58,9 @@ union ControllerPlace {
     uint8_t cleared = 0;
     Controller value;
 };
-ControllerPlace controller_place;
+alignas(256) ControllerPlace controller_place;
 Controller& controller = controller_place.value;
-hal::RawInputs inputs;
+alignas(128) hal::RawInputs inputs;
 hal::Commands commands;
 Schedule schedule;
 UplinkParser uplink;

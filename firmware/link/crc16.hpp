@@ -30,7 +30,7 @@ struct Crc16Table {
         }
     }
 };
-inline constexpr Crc16Table kCrc16Table;
+alignas(256) inline constexpr Crc16Table kCrc16Table;
 
 }  // namespace link
 

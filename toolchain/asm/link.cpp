@@ -165,33 +165,50 @@ private:
                          range_text(one.address, one.size)));
     }
 
-    /// Lays the sections of a kind out behind each other. @return bytes, and the alignment of all
-    std::pair<uint32_t, uint32_t> lay_out(SectionKind kind) {
+    /// Sections of one kind, which lie together.
+    struct Block {
+        SectionKind kind = SectionKind::zero;
         uint32_t size = 0;
         uint32_t alignment = 1;
+    };
+
+    /// Lays the sections of a kind out from 0 on: the most aligned ones first, others in their
+    /// gaps.
+    Block lay_out(SectionKind kind) {
+        Block block{.kind = kind};
+        std::vector<PlacedSection*> order;
         for (PlacedSection& placed : program_.sections) {
-            if (placed.section.kind != kind || placed.section.address) continue;
-            const uint32_t step = placed.section.alignment;
-            uint32_t offset = (size + step - 1) / step * step;
-            if (kind == SectionKind::frame) offset = placed.section.frame_offset;
-            put_at(placed, offset);
-            size = std::max(size, offset + placed.size);
-            alignment = std::max(alignment, step);
+            if (placed.section.kind == kind && !placed.section.address) order.push_back(&placed);
         }
-        return {size, alignment};
+        const auto alignment_of = [](const PlacedSection* placed) {
+            return placed->section.alignment;
+        };
+        std::ranges::stable_sort(order, std::greater{}, alignment_of);
+        FreeSpace offsets({0, kMemorySize - 1});
+        for (PlacedSection* placed : order) {
+            uint32_t offset = placed->section.frame_offset;
+            if (kind != SectionKind::frame) {
+                const auto free = offsets.take(placed->size, alignment_of(placed));
+                offset = free.value_or(block.size);  // more than 64 KB: refused as a whole
+            }
+            put_at(*placed, offset);
+            block.size = std::max(block.size, offset + placed->size);
+            block.alignment = std::max(block.alignment, alignment_of(placed));
+        }
+        if (kind == SectionKind::zero && options_.startup) block.size += block.size % 2;
+        return block;
     }
 
-    Region place_block(SectionKind kind) {
-        auto [size, alignment] = lay_out(kind);
-        if (kind == SectionKind::zero && options_.startup) size += size % 2;
-        const auto first = size == 0 ? options_.ram.first : ram_.take(size, alignment);
-        if (!first) fail(full(ram_, "RAM", options_.ram, size));
+    Region place_block(const Block& block) {
+        const auto first =
+            block.size == 0 ? options_.ram.first : ram_.take(block.size, block.alignment);
+        if (!first) fail(full(ram_, "RAM", options_.ram, block.size));
         for (PlacedSection& placed : program_.sections) {
-            if (placed.section.kind == kind && !placed.section.address) {
+            if (placed.section.kind == block.kind && !placed.section.address) {
                 put_at(placed, placed.address + *first);
             }
         }
-        return {*first, size};
+        return {*first, block.size};
     }
 
     void place_ram() {
@@ -200,10 +217,18 @@ private:
             options_.stack_size == 0 ? options_.ram.last + 1u : ram_.take_top(options_.stack_size);
         if (!stack) fail(full(ram_, "RAM", options_.ram, options_.stack_size));
         program_.stack.first = *stack;
-        program_.frames = place_block(SectionKind::frame);
-        program_.data = place_block(SectionKind::initialised);
-        program_.zero = place_block(SectionKind::zero);
-        place_block(SectionKind::persistent);
+        std::vector<Block> blocks;
+        for (const SectionKind kind : {SectionKind::frame, SectionKind::initialised,
+                                       SectionKind::zero, SectionKind::persistent}) {
+            blocks.push_back(lay_out(kind));
+        }
+        std::ranges::stable_sort(blocks, std::greater{}, &Block::alignment);
+        for (const Block& block : blocks) {
+            const Region region = place_block(block);
+            if (block.kind == SectionKind::frame) program_.frames = region;
+            if (block.kind == SectionKind::initialised) program_.data = region;
+            if (block.kind == SectionKind::zero) program_.zero = region;
+        }
     }
 
     [[nodiscard]] Startup build_startup() const {

@@ -41,6 +41,11 @@ void split_conditions(llvm::Function& function);
 /// Each select becomes a branch, with what only one value needs on its way.
 void expand_selects(llvm::Function& function);
 
+/// Addresses whose upper byte does not depend on the subscript get kPageNote.
+void find_pages(llvm::Function& function);
+/// Metadata: the variable's byte whose address has that upper byte.
+inline constexpr const char* kPageNote = "i85.page";
+
 /// Addresses and loads stand next to their only use.
 void place_near_use(llvm::Function& function);
 

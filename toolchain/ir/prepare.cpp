@@ -53,6 +53,7 @@ void prepare(llvm::Module& module) {
         run("split_conditions", split_conditions);
         run("expand_selects", expand_selects);
         run("place_near_use", place_near_use);
+        run("find_pages", find_pages);
     }
 }
 

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <llvm/IR/DataLayout.h>
 #include <llvm/IR/GetElementPtrTypeIterator.h>
+#include <llvm/IR/Metadata.h>
+#include <llvm/IR/Operator.h>
 
 #include <bit>
 #include <vector>
 
+#include "toolchain/ir/passes.hpp"
 #include "toolchain/ir/selector.hpp"
 
 namespace toolchain::ir {
@@ -266,8 +269,56 @@ Bytes Selector::select_compare(const llvm::ICmpInst& compare) {
     return {builder_.compare(wanted.predicate, wanted.left, wanted.right)};
 }
 
+// Behind find_pages(): the lower byte is a sum of bytes, the upper one known.
+Bytes Selector::select_in_page(const llvm::GetElementPtrInst& address, const llvm::MDNode& note) {
+    const unsigned bits = layout_.getIndexTypeSizeInBits(address.getType());
+    llvm::APInt fixed(bits, 0);
+    const auto* variable = llvm::cast<llvm::GlobalVariable>(
+        address.getPointerOperand()->stripAndAccumulateConstantOffsets(layout_, fixed,
+                                                                       /*AllowNonInbounds=*/true));
+    llvm::MapVector<llvm::Value*, llvm::APInt> subscripts;
+    llvm::APInt inner(bits, 0);
+    llvm::cast<llvm::GEPOperator>(address).collectOffset(layout_, bits, subscripts, inner);
+    const auto offset = static_cast<int32_t>((fixed + inner).getSExtValue());
+    const auto page = llvm::mdconst::extract<llvm::ConstantInt>(note.getOperand(0))->getZExtValue();
+    const auto symbol = out_.intern(variable->getName().str());
+    Bytes low = {builder_.address(symbol, offset)[0]};
+    if (variable->getAlign().valueOrOne().value() >= 256) {
+        low = builder_.constant(static_cast<uint8_t>(offset), 1);
+    }
+    for (const auto& [index, stride] : subscripts) {
+        const Bytes scaled = multiply_by_constant({value(index)[0]}, stride.getZExtValue() & 0xFF);
+        low = builder_.add(low, scaled);
+    }
+    return {low[0], builder_.address(symbol, static_cast<int32_t>(page))[1]};
+}
+
+// Fields of an element of a variable that lies in one page lie in it, too.
+std::optional<Bytes> Selector::select_field_in_page(const llvm::GetElementPtrInst& address) {
+    const auto* element = llvm::dyn_cast<llvm::GetElementPtrInst>(address.getPointerOperand());
+    llvm::APInt fixed(layout_.getIndexTypeSizeInBits(address.getType()), 0);
+    if (element == nullptr || element->getMetadata(kPageNote) == nullptr ||
+        !address.accumulateConstantOffset(layout_, fixed)) {
+        return std::nullopt;
+    }
+    llvm::APInt before = fixed;
+    const auto* variable = llvm::cast<llvm::GlobalVariable>(
+        element->getPointerOperand()->stripAndAccumulateConstantOffsets(layout_, before,
+                                                                        /*AllowNonInbounds=*/true));
+    if (layout_.getTypeAllocSize(variable->getValueType()).getFixedValue() > 256) {
+        return std::nullopt;
+    }
+    const Bytes whole = value(element);
+    const uint64_t offset = fixed.getZExtValue() & 0xFF;
+    return Bytes{builder_.add({whole[0]}, builder_.constant(offset, 1))[0], whole[1]};
+}
+
 Bytes Selector::select_address(const llvm::GetElementPtrInst& address) {
     constexpr std::size_t kPointerSize = 2;
+    if (const llvm::MDNode* note = address.getMetadata(kPageNote)) {
+        return select_in_page(address, *note);
+    }
+    if (const auto field = select_field_in_page(address)) return *field;
     Bytes sum = value(address.getPointerOperand());
     int64_t fixed = 0;
     for (auto index = llvm::gep_type_begin(address); index != llvm::gep_type_end(address);

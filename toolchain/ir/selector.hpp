@@ -7,6 +7,7 @@
 #include <llvm/IR/IntrinsicInst.h>
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "toolchain/codegen/builder.hpp"
@@ -45,6 +46,9 @@ private:
     [[nodiscard]] Bytes select_cast(const llvm::CastInst& cast);
     [[nodiscard]] Bytes select_compare(const llvm::ICmpInst& compare);
     [[nodiscard]] Bytes select_address(const llvm::GetElementPtrInst& address);
+    [[nodiscard]] Bytes select_in_page(const llvm::GetElementPtrInst& address,
+                                       const llvm::MDNode& note);
+    [[nodiscard]] std::optional<Bytes> select_field_in_page(const llvm::GetElementPtrInst& address);
     [[nodiscard]] Bytes select_call(const llvm::CallBase& call);
     [[nodiscard]] Bytes select_intrinsic(const llvm::IntrinsicInst& call);
     void check_prototype(const llvm::CallBase& call, const llvm::Function& callee) const;

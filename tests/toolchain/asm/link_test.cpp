@@ -178,6 +178,24 @@ TEST(Link, Alignment) {
     EXPECT_EQ(value_of(program, "g"), 0x03);  // fills the gap
 }
 
+// Variables fill the gaps that aligned ones leave, and the most aligned kind of memory comes first.
+TEST(Link, AlignmentInRam) {
+    LinkOptions options = rooted({"f"});
+    options.ram = {0x8000, 0x87FF};
+    options.stack_size = 0x20;
+    const Program program = linked(
+        "SECTION f,code\nf: LXI H,a\nLXI H,b\nLXI H,c\nLXI H,d\nLDA s\n"
+        "SECTION f@frame,frame\ns: DS 7\nSECTION a,zero\na: DS 10\n"
+        "SECTION b,zero,ALIGN 256\nb: DS 260\nSECTION c,zero,ALIGN 256\nc: DS 3\n"
+        "SECTION d,zero\nd: DS 20\n",
+        options);
+    EXPECT_EQ(value_of(program, "b"), 0x8000);
+    EXPECT_EQ(value_of(program, "c"), 0x8200);
+    EXPECT_EQ(value_of(program, "a"), 0x8104);
+    EXPECT_EQ(value_of(program, "d"), 0x810E);
+    EXPECT_EQ(value_of(program, "s"), 0x8203);
+}
+
 TEST(Link, ThirtyThousandInstructionsTakeLittleTime) {
     std::vector<Module> modules(1);
     std::vector<std::string> roots;

@@ -22,9 +22,12 @@ Interpreter::Interpreter(const Module& module) : module_(module) {
     uint16_t code = 0x0100;
     for (const Function& function : module.functions) {
         addresses_[function.symbol] = code++;
-        for (const FrameObject& object : function.frame) place(object.symbol, object.size);
+        for (const FrameObject& object : function.frame)
+            place(object.symbol, object.size, object.alignment);
     }
-    for (const Variable& variable : module.variables) place(variable.symbol, variable.size);
+    for (const Variable& variable : module.variables) {
+        place(variable.symbol, variable.size, variable.alignment);
+    }
     constexpr uint32_t kLargestCell = 8;
     for (SymbolId symbol = 0; symbol < module.symbols.size(); ++symbol) {
         const std::string& name = module.symbols[symbol];
@@ -45,7 +48,8 @@ Interpreter::Interpreter(const Module& module) : module_(module) {
     }
 }
 
-void Interpreter::place(SymbolId symbol, uint32_t size) {
+void Interpreter::place(SymbolId symbol, uint32_t size, uint32_t alignment) {
+    next_ = static_cast<uint16_t>((next_ + alignment - 1) / alignment * alignment);
     addresses_[symbol] = next_;
     if (size > 0x10000U - next_) throw std::runtime_error("variables do not fit into memory");
     next_ = static_cast<uint16_t>(next_ + size);

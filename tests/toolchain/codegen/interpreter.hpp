@@ -46,7 +46,7 @@ private:
         uint16_t stack = 0;  ///< address of its variables on the stack
     };
 
-    void place(toolchain::codegen::SymbolId symbol, uint32_t size);
+    void place(toolchain::codegen::SymbolId symbol, uint32_t size, uint32_t alignment = 1);
     uint8_t read(const Frame& frame, uint32_t byte) const;
     Wide number(const Frame& frame, const Bytes& bytes) const;
     SignedWide signed_number(const Frame& frame, const Bytes& bytes) const;
