@@ -184,16 +184,16 @@ TEST(Link, AlignmentInRam) {
     options.ram = {0x8000, 0x87FF};
     options.stack_size = 0x20;
     const Program program = linked(
-        "SECTION f,code\nf: LXI H,a\nLXI H,b\nLXI H,c\nLXI H,d\nLDA s\n"
-        "SECTION f@frame,frame\ns: DS 7\nSECTION a,zero\na: DS 10\n"
-        "SECTION b,zero,ALIGN 256\nb: DS 260\nSECTION c,zero,ALIGN 256\nc: DS 3\n"
-        "SECTION d,zero\nd: DS 20\n",
+        "SECTION f,code\nf: LXI H,va\nLXI H,vb\nLXI H,vc\nLXI H,vd\nLDA vs\n"
+        "SECTION f@frame,frame\nvs: DS 7\nSECTION va,zero\nva: DS 10\n"
+        "SECTION vb,zero,ALIGN 256\nvb: DS 260\nSECTION vc,zero,ALIGN 256\nvc: DS 3\n"
+        "SECTION vd,zero\nvd: DS 20\n",
         options);
-    EXPECT_EQ(value_of(program, "b"), 0x8000);
-    EXPECT_EQ(value_of(program, "c"), 0x8200);
-    EXPECT_EQ(value_of(program, "a"), 0x8104);
-    EXPECT_EQ(value_of(program, "d"), 0x810E);
-    EXPECT_EQ(value_of(program, "s"), 0x8203);
+    EXPECT_EQ(value_of(program, "vb"), 0x8000);
+    EXPECT_EQ(value_of(program, "vc"), 0x8200);
+    EXPECT_EQ(value_of(program, "va"), 0x8104);
+    EXPECT_EQ(value_of(program, "vd"), 0x810E);
+    EXPECT_EQ(value_of(program, "vs"), 0x8203);
 }
 
 TEST(Link, ThirtyThousandInstructionsTakeLittleTime) {
