@@ -152,12 +152,29 @@ Bytes Builder::add(const Bytes& left, const Bytes& right) {
     return carry_chain(Opcode::add, left, right);
 }
 
-// Zero bytes at the bottom of the right operand leave those of the left one alone.
+/// A byte of a sum or difference that neither takes nor leaves a carry, if it needs no code.
+std::optional<ByteId> Builder::without_carry(Opcode opcode, ByteId left, ByteId right) {
+    if (is_constant(right, 0)) return left;
+    if (opcode == Opcode::add && is_constant(left, 0)) return right;
+    const ByteInfo one = info(left);
+    const ByteInfo other = info(right);
+    if (one.kind != Kind::constant || other.kind != Kind::constant) return std::nullopt;
+    const int value =
+        opcode == Opcode::add ? one.constant + other.constant : one.constant - other.constant;
+    if (value < 0 || value > 0xFF) return std::nullopt;
+    return constant_byte(static_cast<uint8_t>(value));
+}
+
+// From the bottom on, bytes without a carry are there already.
 Bytes Builder::carry_chain(Opcode opcode, const Bytes& left, const Bytes& right) {
+    Bytes result;
     std::size_t kept = 0;
-    while (kept < left.size() && is_constant(right[kept], 0)) ++kept;
+    for (; kept < left.size(); ++kept) {
+        const auto byte = without_carry(opcode, left[kept], right[kept]);
+        if (!byte) break;
+        result.push_back(*byte);
+    }
     const auto from = static_cast<std::ptrdiff_t>(kept);
-    Bytes result(left.begin(), left.begin() + from);
     if (kept == left.size()) return result;
     const Bytes results = new_results(left.size() - kept);
     Operation& operation = append(opcode);

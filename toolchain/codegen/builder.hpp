@@ -69,6 +69,7 @@ private:
     [[nodiscard]] const ByteInfo& info(ByteId byte) const { return function_.bytes[byte]; }
     [[nodiscard]] std::optional<Bytes> add_to_address(const Bytes& left, const Bytes& right);
     Bytes shifted(Opcode opcode, const Bytes& value, unsigned bits);
+    std::optional<ByteId> without_carry(Opcode opcode, ByteId left, ByteId right);
     Bytes carry_chain(Opcode opcode, const Bytes& left, const Bytes& right);
     ByteId sign_of(ByteId byte);
 
