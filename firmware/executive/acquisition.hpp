@@ -12,28 +12,43 @@
 
 namespace rover {
 
-/// The angle channels; the others stay absent. @return  false: the converter gave no answer
+/// All converter channels absent: once, before the first read_converter().
+inline void begin_converter(hal::RawInputs& inputs) {
+    uint16_t* channel = inputs.adc_q4_count;
+    for (uint8_t left = hal::kAdcChannelCount; left != 0; --left) *channel++ = hal::kAdcAbsent;
+}
+
+/// The sampled channels; the others stay as they were. @return  false: one gave no answer
 template <class Parts>
 bool read_converter(hal::RawInputs& inputs) {
     bool answered = true;
-    for (uint16_t& channel : inputs.adc_q4_count) channel = hal::kAdcAbsent;
-    for (const uint8_t channel : kSampledChannels) {
+    uint16_t* place = inputs.adc_q4_count;
+    for (uint8_t channel = 0; channel != kSampledChannelCount; ++channel) {
         const uint16_t sum = Parts::AnalogInputs::sum_of_16(channel);
-        inputs.adc_q4_count[channel] = sum;
+        *place++ = sum;
         if (sum == hal::kAdcAbsent) answered = false;
     }
     return answered;
 }
 
-/// The newest scan. Without an answer no sample is present, and the scan count stays: stale.
+// A scan goes from the module to its place: the inputs have it in the order of the frame.
+static_assert(__builtin_offsetof(hal::RawInputs, range_present) ==
+              __builtin_offsetof(hal::RawInputs, range_scan_count) +
+                  __builtin_offsetof(hal::RangeFrame, present));
+static_assert(__builtin_offsetof(hal::RawInputs, range_q1_mm) ==
+              __builtin_offsetof(hal::RawInputs, range_scan_count) +
+                  __builtin_offsetof(hal::RangeFrame, heights));
+
+/// The newest scan. Without an answer no sample is present, and the scan count stays: stale; the
+/// heights mean nothing then.
 template <class Parts>
 void read_range(hal::RawInputs& inputs) {
-    hal::RangeFrame frame;
+    const uint8_t last_scan_count = inputs.range_scan_count;
+    if (Parts::Range::read(reinterpret_cast<hal::RangeFrame&>(inputs.range_scan_count)) ==
+        hal::RangeStatus::ok)
+        return;
+    inputs.range_scan_count = last_scan_count;
     inputs.range_present = 0;
-    if (Parts::Range::read(frame) != hal::RangeStatus::ok) return;
-    inputs.range_scan_count = frame.scan_count;
-    inputs.range_present = frame.present;
-    for (uint8_t i = 0; i < hal::kRangeSampleCount; ++i) inputs.range_q1_mm[i] = frame.heights[i];
 }
 
 /// Bytes that have come over the link, oldest first; what does not fit waits in the ring.

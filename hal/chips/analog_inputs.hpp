@@ -37,9 +37,10 @@ struct AnalogInputs {
             const uint8_t low = Adc::low();
             Bus::let_interrupts_in();
             Adc::start(low);
-            (void)Adc::busy();  // with it, wait() below looks first when 35 us are over
             high_sum = static_cast<uint16_t>(high_sum + high);
             low_sum = static_cast<uint8_t>(low_sum + (low >> 4));
+            (void)Adc::busy();
+            (void)Adc::busy();  // with these, wait() looks first when 35 us are just over
             if (--left != 0) continue;
             if (!Adc::wait()) break;
             high_sum = static_cast<uint16_t>(high_sum + Adc::high());

@@ -26,6 +26,7 @@ struct Parts {
 TEST(ReadConverter, SamplesTheFiveAnglesAndLeavesTheRestAbsent) {
     for (std::uint16_t i = 0; i < 16; ++i) Parts::sums[i] = static_cast<std::uint16_t>(1000 * i);
     hal::RawInputs inputs;
+    rover::begin_converter(inputs);
     EXPECT_TRUE(rover::read_converter<Parts>(inputs));
     for (std::uint16_t i = 0; i < hal::kAdcChannelCount; ++i) {
         EXPECT_EQ(inputs.adc_q4_count[i], i < 5 ? 1000 * i : 0xFFFF) << i;

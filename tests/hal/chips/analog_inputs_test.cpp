@@ -34,7 +34,7 @@ TEST(AnalogInputsAccesses, SumSelectsOnceAndLetsInterruptsInBetweenConversions) 
     const char* lows[] = {"10", "20", "30", "40", "50", "60", "70", "80",
                           "90", "A0", "B0", "C0", "D0", "E0", "F0"};
     for (const char* low : lows) {  // what is written to start does not matter: the byte at hand
-        expected += std::string(" <21 <28 <29 LET 28=") + low + " <21";
+        expected += std::string(" <21 <28 <29 LET 28=") + low + " <21 <21";
     }
     EXPECT_EQ(bus.accesses(), expected + " <21 <28 <29 EI");
 }
