@@ -411,11 +411,13 @@ void start_transmitter() {
 [[gnu::noinline]] void rover_link() {
     link_bytes = add_wrap(link_bytes, widen_u16(inputs.command_size));
     if (inputs.command_size == 0) uplink.quiet();
-    for (uint8_t i = 0; i < inputs.command_size; ++i) {
-        if (uplink.take(inputs.command[i])) answer_frame();
+    const uint8_t* next = inputs.command;
+    for (uint8_t left = inputs.command_size; left != 0; --left) {
+        if (uplink.take(*next++)) answer_frame();
     }
-    const uint16_t lost = bit_or(bit_or(read_shared(received.dropped), read_shared(receive_errors)),
-                                 status.frames_dropped);
+    // Not of one moment: a count that is on its way from 00FFh to 0100h is seen in the next step.
+    const uint16_t lost =
+        bit_or(bit_or(uint16_t{received.dropped}, uint16_t{receive_errors}), status.frames_dropped);
     if (lost != 0) set_fault(kFaultLinkLost);
     start_transmitter();
 }

@@ -52,11 +52,11 @@ template <class Format>
 struct FrameParser {
     uint8_t taken = 0;    ///< bytes of a frame so far, [0, kFrameOverhead + kPayloadMax)
     uint8_t refused = 0;  ///< frames with a wrong check or size, modulo 2^8
-    uint8_t content[Format::kPayloadMax + 4] = {};  ///< from the type to the check
+    uint8_t frame[kFrameOverhead + Format::kPayloadMax] = {};
 
-    [[nodiscard]] constexpr uint8_t type() const { return content[0]; }
-    [[nodiscard]] constexpr uint8_t size() const { return content[1]; }
-    [[nodiscard]] constexpr const uint8_t* payload() const { return content + 2; }
+    [[nodiscard]] constexpr uint8_t type() const { return frame[2]; }
+    [[nodiscard]] constexpr uint8_t size() const { return frame[3]; }
+    [[nodiscard]] constexpr const uint8_t* payload() const { return frame + 4; }
 
     /// Forgets a frame that was begun: its sender paused.
     constexpr void quiet() { taken = 0; }
@@ -64,39 +64,33 @@ struct FrameParser {
     /// Takes one byte.
     /// @return  true: it was the last of a good frame; type, size and payload are valid until the
     ///          next call
-    constexpr bool take(uint8_t byte) {
+    [[gnu::noinline]] constexpr bool take(uint8_t byte) {
         const uint8_t place = taken;
-        if (place < 2) {
-            seek(byte);
+        if (place < 2 && byte != (place == 0 ? Format::kSync0 : Format::kSync1)) {
+            taken = 0;
+            if (byte == Format::kSync0) taken = 1;
             return false;
         }
-        content[sub_wrap(place, uint8_t{2})] = byte;
-        taken = add_wrap(place, uint8_t{1});
-        if (place == 3 && byte > Format::kPayloadMax) refuse();
-        if (place < kFrameOverhead - 1) return false;
-        if (taken != add_wrap(size(), kFrameOverhead)) return false;
+        frame[place] = byte;
+        const uint8_t count = add_wrap(place, uint8_t{1});
+        taken = count;
+        if (place == 3 && byte > Format::kPayloadMax) return refuse();
+        if (place < kFrameOverhead - 1 || count != add_wrap(size(), kFrameOverhead)) return false;
+        if (!check_is_right()) return refuse();
         taken = 0;
-        if (check_is_right()) return true;
-        refuse();
-        return false;
+        return true;
     }
 
 private:
-    constexpr void seek(uint8_t byte) {
-        if (taken == 1 && byte == Format::kSync1) {
-            taken = 2;
-        } else {
-            taken = byte == Format::kSync0 ? 1 : 0;
-        }
-    }
-    constexpr void refuse() {
+    constexpr bool refuse() {
         refused = add_wrap(refused, uint8_t{1});
         taken = 0;
+        return false;
     }
     [[nodiscard]] constexpr bool check_is_right() const {
         const uint8_t covered = add_wrap(size(), uint8_t{2});
-        const uint16_t crc = crc16_block<Byte>(kCrc16Start, content, covered);
-        const uint8_t* const check = content + covered;
+        const uint16_t crc = crc16_block<Byte>(kCrc16Start, frame + 2, covered);
+        const uint8_t* const check = frame + 2 + covered;
         return check[0] == narrow_wrap_u8(crc) && check[1] == narrow_wrap_u8(shift_floor<8>(crc));
     }
     /// As elsewhere, so that one function serves all.
