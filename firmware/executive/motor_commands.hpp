@@ -27,6 +27,18 @@ struct DriveLatches {
     uint8_t backward;  ///< bit w: wheel w
 };
 
+/// Is no wheel to turn backward?
+constexpr bool is_all_ahead(const int8_t (&percent)[hal::kWheelCount]) {
+    uint8_t bits = 0;
+    bits = bit_or(bits, narrow_wrap_u8(percent[0]));
+    bits = bit_or(bits, narrow_wrap_u8(percent[1]));
+    bits = bit_or(bits, narrow_wrap_u8(percent[2]));
+    bits = bit_or(bits, narrow_wrap_u8(percent[3]));
+    bits = bit_or(bits, narrow_wrap_u8(percent[4]));
+    bits = bit_or(bits, narrow_wrap_u8(percent[5]));
+    return bits < 0x80;
+}
+
 /// Equal neighbours, the usual case, are computed once.
 constexpr void drive_latches(const hal::Commands& commands, DriveLatches& latches) {
     const int8_t* percent = commands.drive_percent;
@@ -39,6 +51,7 @@ constexpr void drive_latches(const hal::Commands& commands, DriveLatches& latche
         *to++ = duty;
     }
     latches.backward = 0;
+    if (is_all_ahead(commands.drive_percent)) return;
     uint8_t wheel_bit = 1;
     for (const int8_t each : commands.drive_percent) {
         if (each < 0) latches.backward = bit_or(latches.backward, wheel_bit);
