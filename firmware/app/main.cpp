@@ -301,7 +301,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     inputs.detector_bits = Parts::PpiB::read_b();
     read_range<Parts>(inputs);
     read_link(received, inputs);
-    if (!read_converter<hal::Rb85Parts<OpenBus>>(inputs)) set_fault(kFaultConverter);
+    read_converter<hal::Rb85Parts<OpenBus>>(inputs, [] { set_fault(kFaultConverter); });
 }
 
 [[gnu::noinline]] void rover_control() {

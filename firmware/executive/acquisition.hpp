@@ -1,7 +1,7 @@
 // acquisition.hpp - RawInputs from the board's parts.
 // Depends on   hal/board/rb85_parts.hpp (as a template argument), config/board_inputs.hpp,
 //              link/byte_ring.hpp, executive/wheel_counts.hpp.
-// Bounds       every wait is one of a driver, with a bound; about 20,000 T.
+// Bounds       every wait is one of a driver, with a bound; about 17,000 T.
 // Design note  docs/design/executive.md     Tests  tests/firmware/executive/acquisition_test.cpp
 #pragma once
 
@@ -18,17 +18,24 @@ inline void begin_converter(hal::RawInputs& inputs) {
     for (uint8_t left = hal::kAdcChannelCount; left != 0; --left) *channel++ = hal::kAdcAbsent;
 }
 
-/// The sampled channels; the others stay as they were. @return  false: one gave no answer
-template <class Parts>
-bool read_converter(hal::RawInputs& inputs) {
-    bool answered = true;
-    uint16_t* place = inputs.adc_q4_count;
-    for (uint8_t channel = 0; channel != kSampledChannelCount; ++channel) {
-        const uint16_t sum = Parts::AnalogInputs::sum_of_16(channel);
-        *place++ = sum;
-        if (sum == hal::kAdcAbsent) answered = false;
-    }
-    return answered;
+/// One channel. @param absent  called when it gave no answer
+template <class Parts, class Absent>
+[[gnu::noinline]] uint16_t read_channel(uint8_t channel, Absent absent) {
+    uint16_t sum;
+    if (!Parts::AnalogInputs::sum_of_16(channel, sum)) absent();
+    return sum;
+}
+
+/// The sampled channels; the others stay as they were. @param absent  called for each without
+/// answer
+template <class Parts, class Absent>
+void read_converter(hal::RawInputs& inputs, Absent absent) {
+    static_assert(kSampledChannelCount == 5);
+    inputs.adc_q4_count[0] = read_channel<Parts>(0, absent);
+    inputs.adc_q4_count[1] = read_channel<Parts>(1, absent);
+    inputs.adc_q4_count[2] = read_channel<Parts>(2, absent);
+    inputs.adc_q4_count[3] = read_channel<Parts>(3, absent);
+    inputs.adc_q4_count[4] = read_channel<Parts>(4, absent);
 }
 
 // A scan goes from the module to its place: the inputs have it in the order of the frame.

@@ -1,7 +1,7 @@
 // crc16.hpp - CRC-16/CCITT-FALSE: polynomial 1021h, start FFFFh, most significant bit first.
 // Depends on   core/arith.hpp.
 // Source       ITU-T V.41 polynomial; check value of "123456789" is 29B1h (Crc16.CheckValue).
-// Cost         two tables of 256 bytes, by halves of the word: an 8085 then indexes bytes.
+// Cost         512 bytes at a page, by halves of the word: an index is then a low address byte.
 #pragma once
 
 #include "firmware/core/arith.hpp"
