@@ -214,12 +214,12 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 /// What the last run has left, before it is overwritten.
 [[gnu::noinline]] void take_over_status() {
     volatile uint8_t* const area = battery_area();
-    status.reset_cause =
-        reset_cause(timer_kept_its_mode<Bus>(), area[battery::kMark], area[battery::kQuietTicks]);
-    if (area[battery::kMark] == static_cast<uint8_t>(RunMark::cold_restart)) drop_checkpoints(area);
+    const uint8_t mark = area[battery::kMark];
+    status.reset_cause = reset_cause(timer_kept_its_mode<Bus>(), mark, area[battery::kQuietTicks]);
+    if (mark == static_cast<uint8_t>(RunMark::cold_restart)) drop_checkpoints(area);
     volatile uint16_t& reset_count = reinterpret_cast<volatile uint16_t&>(area[0]);
-    reset_count = add_wrap(uint16_t{reset_count}, uint16_t{1});
-    status.reset_count = reset_count;
+    status.reset_count = add_wrap(uint16_t{reset_count}, uint16_t{1});
+    reset_count = status.reset_count;
     status.last_faults = bit_or(widen_u16(uint8_t{main_faults()}),
                                 shift_left_wrap<8>(widen_u16(uint8_t{trap_faults()})));
     main_faults() = 0;
