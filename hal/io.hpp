@@ -53,10 +53,10 @@ struct RawInputs {
     uint16_t adc_q4_count[kAdcChannelCount] = {};  ///< see kAdcMaxQ4Count, kAdcAbsent
     uint16_t tach_count[kWheelCount] = {};  ///< pulses since reset, modulo 2^16, forward counts up
     uint8_t tach_present = 0;               ///< bit w: wheel w has a working tachometer channel
+    uint8_t detector_bits = 0;              ///< laser proximity detectors, one bit each
     uint8_t range_scan_count = 0;           ///< modulo 2^8; unchanged means no new scan (stale)
     uint8_t range_present = 0;              ///< bit i: range_q1_mm[i] was seen in this scan
     int16_t range_q1_mm[kRangeSampleCount] = {};  ///< s16 Q1 mm, ground, body frame
-    uint8_t detector_bits = 0;                    ///< laser proximity detectors, one bit each
     uint8_t command_size = 0;                     ///< [0, kCommandBytesMax]
     uint8_t command[kCommandBytesMax] = {};       ///< received link bytes, oldest first
 };

@@ -96,6 +96,11 @@ const Content* stored(uint8_t record) {
     return reinterpret_cast<const Content*>(add_wrap(content, widen_u16(record)));
 }
 
+/// An edge for the watchdog.
+[[gnu::noinline]] void feed_watchdog() {
+    Parts::Watchdog::toggle();
+}
+
 /// A u16 that an interrupt counts up.
 [[gnu::noinline]] uint16_t read_shared(const volatile uint16_t& value) {
     Bus::disable_interrupts();
@@ -176,12 +181,8 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     Parts::PpiB::set_mode<hal::rb85::kPpiBMode>();
     Parts::TimerA::start<hal::rb85::kBaudCounter, Parts::TimerA::Mode::square_wave>(
         hal::rb85::kBaudCount);
-    Parts::TimerB::start_pulses<0>();
-    Parts::TimerB::start_pulses<1>();
-    Parts::TimerB::start_pulses<2>();
-    Parts::TimerC::start_pulses<0>();
-    Parts::TimerC::start_pulses<1>();
-    Parts::TimerC::start_pulses<2>();
+    Parts::TimerB::start_all_pulses();
+    Parts::TimerC::start_all_pulses();
     Parts::Usart::reset();
 }
 
@@ -192,7 +193,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     const uint16_t size = bit_or(widen_u16(low), shift_left_wrap<8>(widen_u16(high)));
     const auto check_at = static_cast<uint16_t>(reinterpret_cast<uintptr_t>(at) + 2);
     return rom_is_intact(reinterpret_cast<const volatile uint8_t*>(hal::rb85::kEepromFirst), size,
-                         check_at, [] { Parts::Watchdog::toggle(); });
+                         check_at, [] { feed_watchdog(); });
 }
 
 /// @param all  else only what the image uses
@@ -203,7 +204,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     const uint8_t variables_end = narrow_wrap_u8(uint16_t{kRamInUseLast / 256 + 1});
     for (; page != hal::rb85::kCheckpointFirst / 256; page = add_wrap(page, uint8_t{1})) {
         if (!all && page == variables_end) page = narrow_wrap_u8(uint16_t{kStackFirst / 256});
-        Parts::Watchdog::toggle();
+        feed_watchdog();
         const uint16_t address = shift_left_wrap<8>(widen_u16(page));
         if (!cells_hold(reinterpret_cast<volatile uint8_t*>(address), 0)) return false;
     }
@@ -213,12 +214,12 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 /// What the last run has left, before it is overwritten.
 [[gnu::noinline]] void take_over_status() {
     volatile uint8_t* const area = battery_area();
-    status.reset_cause =
-        reset_cause(timer_kept_its_mode<Bus>(), area[battery::kMark], area[battery::kQuietTicks]);
-    if (area[battery::kMark] == static_cast<uint8_t>(RunMark::cold_restart)) drop_checkpoints(area);
+    const uint8_t mark = area[battery::kMark];
+    status.reset_cause = reset_cause(timer_kept_its_mode<Bus>(), mark, area[battery::kQuietTicks]);
+    if (mark == static_cast<uint8_t>(RunMark::cold_restart)) drop_checkpoints(area);
     volatile uint16_t& reset_count = reinterpret_cast<volatile uint16_t&>(area[0]);
-    reset_count = add_wrap(uint16_t{reset_count}, uint16_t{1});
-    status.reset_count = reset_count;
+    status.reset_count = add_wrap(uint16_t{reset_count}, uint16_t{1});
+    reset_count = status.reset_count;
     status.last_faults = bit_or(widen_u16(uint8_t{main_faults()}),
                                 shift_left_wrap<8>(widen_u16(uint8_t{trap_faults()})));
     main_faults() = 0;
@@ -232,6 +233,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 /// Controller from calibration record and checkpoint. @return  true: warm
 [[gnu::noinline]] bool start_controller() {
     set_initial_values(controller);
+    begin_converter(inputs);
     if (record_is_valid(battery_area() + battery::kCalibration, kCalibrationBytes)) {
         take_calibration(controller, *stored<hal::Calibration>(battery::kCalibration));
     } else {
@@ -242,7 +244,9 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
         set_fault(kFaultNoCheckpoint);
         return false;
     }
-    controller_resume(controller, *stored<PoseRecord>(checkpoint.slot));
+    alignas(PoseRecord) uint8_t record[sizeof(PoseRecord)];  // at a fixed place, unlike the slot
+    copy_bytes(record, battery_area() + add_wrap(checkpoint.slot, kRecordContent), sizeof record);
+    controller_resume(controller, *reinterpret_cast<const PoseRecord*>(record));
     return true;
 }
 
@@ -257,7 +261,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     Parts::TimerA::start<hal::rb85::kTickCounter, Parts::TimerA::Mode::rate_generator>(
         hal::rb85::kTickCount);
     battery_area()[battery::kQuietTicks] = 0;
-    Parts::Watchdog::toggle();
+    feed_watchdog();
     read_counters<Parts>(wheels);
     for (WheelCount& wheel : wheels) wheel.last = wheel.now;
     ticks_to_count = kTicksPerCount;
@@ -297,7 +301,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     inputs.detector_bits = Parts::PpiB::read_b();
     read_range<Parts>(inputs);
     read_link(received, inputs);
-    if (!read_converter<hal::Rb85Parts<OpenBus>>(inputs)) set_fault(kFaultConverter);
+    read_converter<hal::Rb85Parts<OpenBus>>(inputs, [] { set_fault(kFaultConverter); });
 }
 
 [[gnu::noinline]] void rover_control() {
@@ -321,7 +325,9 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 }
 
 struct ToSend {
-    [[gnu::noinline]] static void push(uint8_t byte) { to_send.push(byte); }
+    [[gnu::noinline]] static void push_all(const volatile uint8_t* from, uint8_t count) {
+        to_send.push_all(from, count);
+    }
 };
 
 [[gnu::noinline]] void queue_frame(DownlinkKind kind, const volatile uint8_t* payload,
@@ -333,7 +339,7 @@ struct ToSend {
 
 [[gnu::noinline]] void rover_send() {
     if (!room_to_send(commands.telemetry_size)) return;
-    to_send.push_all(commands.telemetry, commands.telemetry_size);
+    ToSend::push_all(commands.telemetry, commands.telemetry_size);
 }
 
 [[gnu::noinline]] void send_status() {
@@ -351,8 +357,8 @@ struct ToSend {
 }
 
 [[gnu::noinline]] AckResult store_calibration() {
-    if (uplink.size != kCalibrationBytes) return AckResult::wrong_size;
-    uint8_t* const bytes = uplink.payload;
+    if (uplink.size() != kCalibrationBytes) return AckResult::wrong_size;
+    const uint8_t* const bytes = uplink.payload();
     for (uint8_t i = 0; i < hal::kAngleChannelCount; ++i) {
         if (bytes[6 + 5 * i] > 1) return AckResult::refused;  // `inverted`
     }
@@ -362,9 +368,9 @@ struct ToSend {
 }
 
 [[gnu::noinline]] AckResult prepare_restart() {
-    if (uplink.size != 1) return AckResult::wrong_size;
-    if (uplink.payload[0] > static_cast<uint8_t>(RestartKind::cold)) return AckResult::refused;
-    const bool cold = uplink.payload[0] == static_cast<uint8_t>(RestartKind::cold);
+    if (uplink.size() != 1) return AckResult::wrong_size;
+    if (uplink.payload()[0] > static_cast<uint8_t>(RestartKind::cold)) return AckResult::refused;
+    const bool cold = uplink.payload()[0] == static_cast<uint8_t>(RestartKind::cold);
     battery_area()[battery::kMark] =
         static_cast<uint8_t>(cold ? RunMark::cold_restart : RunMark::warm_restart);
     restarting = true;
@@ -373,7 +379,7 @@ struct ToSend {
 
 [[gnu::noinline]] void answer_frame() {
     AckResult result = AckResult::unknown_type;
-    switch (static_cast<UplinkType>(uplink.type)) {
+    switch (static_cast<UplinkType>(uplink.type())) {
         case UplinkType::identity:
             queue_frame(DownlinkKind::identity, identity_bytes() + sizeof rover_identity.magic,
                         kIdentityPayloadSize);
@@ -390,7 +396,7 @@ struct ToSend {
         default:
             break;
     }
-    const uint8_t payload[2] = {uplink.type, static_cast<uint8_t>(result)};
+    const uint8_t payload[2] = {uplink.type(), static_cast<uint8_t>(result)};
     queue_frame(DownlinkKind::acknowledge, payload, sizeof payload);
 }
 
@@ -405,11 +411,13 @@ void start_transmitter() {
 [[gnu::noinline]] void rover_link() {
     link_bytes = add_wrap(link_bytes, widen_u16(inputs.command_size));
     if (inputs.command_size == 0) uplink.quiet();
-    for (uint8_t i = 0; i < inputs.command_size; ++i) {
-        if (uplink.take(inputs.command[i])) answer_frame();
+    const uint8_t* next = inputs.command;
+    for (uint8_t left = inputs.command_size; left != 0; --left) {
+        if (uplink.take(*next++)) answer_frame();
     }
-    const uint16_t lost = bit_or(bit_or(read_shared(received.dropped), read_shared(receive_errors)),
-                                 status.frames_dropped);
+    // Not of one moment: a count that is on its way from 00FFh to 0100h is seen in the next step.
+    const uint16_t lost =
+        bit_or(bit_or(uint16_t{received.dropped}, uint16_t{receive_errors}), status.frames_dropped);
     if (lost != 0) set_fault(kFaultLinkLost);
     start_transmitter();
 }
@@ -440,7 +448,7 @@ int main() {  // tidy-allow(explicit-width): the language wants int
         rover_checkpoint();
         if (!stack_guard_holds(stack_guard())) set_fault(kFaultStack);
         if (restarting) wait_for_reset();
-        Parts::Watchdog::toggle();
+        feed_watchdog();
         battery_area()[battery::kQuietTicks] = 0;
         rover_step_count = add_wrap(uint16_t{rover_step_count}, uint16_t{1});
     }

@@ -7,29 +7,22 @@
 
 namespace rover {
 
-/// CRC of up to 256 bytes more. @param count  [1, 256]: 256 is given as 0
-template <class Byte>
-[[gnu::noinline]] uint16_t block_crc(uint16_t crc, const Byte* from, uint8_t count) {
-    do {
-        crc = crc16_add(crc, uint8_t{*from++});
-    } while (--count != 0);
-    return crc;
-}
-
 /// CRC of ROM bytes, going on from `crc`.
 /// @param alive  called before every 256 bytes
 template <class Byte, class Alive>
 [[gnu::noinline]] uint16_t rom_crc(uint16_t crc, const Byte* from, uint16_t count, Alive alive) {
     const uint8_t odd = narrow_wrap_u8(count);
-    if (odd != 0) crc = block_crc(crc, from, odd);
+    if (odd != 0) crc = crc16_block(crc, from, odd);
     from += odd;
     for (uint8_t blocks = narrow_wrap_u8(shift_floor<8>(count)); blocks != 0; --blocks) {
         alive();
-        crc = block_crc(crc, from, 0);
+        crc = crc16_block(crc, from, 0);
         from += 256;
     }
     return crc;
 }
+
+inline constexpr uint8_t kTwoZeros[2] = {};
 
 /// Is the CRC of bytes 0 to size - 1 the one that stands in it?
 /// @param rom       first byte of ROM
@@ -40,7 +33,7 @@ bool rom_is_intact(const Byte* rom, uint16_t size, uint16_t check_at, Alive aliv
     const uint16_t behind = add_wrap(check_at, uint16_t{2});
     if (size < behind) return false;
     uint16_t crc = rom_crc(kCrc16Start, rom, check_at, alive);
-    crc = crc16_add(crc16_add(crc, 0), 0);
+    crc = crc16_block<Byte>(crc, kTwoZeros, sizeof kTwoZeros);
     crc = rom_crc(crc, rom + behind, sub_wrap(size, behind), alive);
     const Byte* check = rom + check_at;
     const uint8_t low = *check++;

@@ -8,14 +8,9 @@
 
 namespace rover {
 
-/// Multiplexer inputs, [0, kAdcChannelCount). All others are reported absent.
-inline constexpr uint8_t kSampledChannels[] = {
-    static_cast<uint8_t>(hal::AdcChannel::bogie_left),
-    static_cast<uint8_t>(hal::AdcChannel::bogie_right),
-    static_cast<uint8_t>(hal::AdcChannel::differential),
-    static_cast<uint8_t>(hal::AdcChannel::pitch),
-    static_cast<uint8_t>(hal::AdcChannel::roll),
-};
+/// The first multiplexer inputs: bogies, differential, pitch, roll. All others are reported absent.
+inline constexpr uint8_t kSampledChannelCount = 5;
+static_assert(static_cast<uint8_t>(hal::AdcChannel::roll) + 1 == kSampledChannelCount);
 
 /// The tick counts tachometer pulses at every fifth tick, so at that of every step: 20 times a
 /// second. Pulses in between are taken to have come in the direction that the wheel has then; a

@@ -33,40 +33,51 @@ enum class RunMark : uint8_t {
 inline constexpr uint8_t kRecordValid = 0xA5;
 inline constexpr uint8_t kRecordOverhead = 4;
 
+/// Where the content of a record begins.
+inline constexpr uint8_t kRecordContent = 2;
+
+/// CRC of sequence number and content.
+/// @param size  of the content, [1, 254]
+template <class Byte>
+constexpr uint16_t record_crc(const Byte* place, uint8_t size) {
+    return crc16_block(kCrc16Start, place + 1, add_wrap(size, uint8_t{1}));
+}
+
+/// @param count  [1, 256]: 256 is given as 0
+template <class Byte, class Content>
+constexpr void copy_bytes(Byte* to, const Content* from, uint8_t count) {
+    do {
+        *to++ = uint8_t{*from++};
+    } while (--count != 0);
+}
+
 /// Replaces a record. Behind any of its stores the record is the old one untouched, invalid, or the
 /// new one complete.
 /// @tparam Byte  volatile on the target: the order of the stores is what protects the record
 /// @param place  kRecordOverhead + `size` bytes
+/// @param size   of the content, [1, 251]
 template <class Byte, class Content>
-constexpr void write_record(Byte* place, uint8_t sequence, const Content* content, uint8_t size) {
-    Byte* state = place;
-    *state = uint8_t{0};
-    *++place = sequence;
-    uint16_t crc = crc16_add(kCrc16Start, sequence);
-    for (; size != 0; --size) {
-        const uint8_t byte = *content++;
-        *++place = byte;
-        crc = crc16_add(crc, byte);
-    }
-    *++place = narrow_wrap_u8(crc);
-    *++place = narrow_wrap_u8(shift_floor<8>(crc));
-    *state = kRecordValid;
+[[gnu::noinline]] constexpr void write_record(Byte* place, uint8_t sequence, const Content* content,
+                                              uint8_t size) {
+    *place = uint8_t{0};
+    place[1] = sequence;
+    copy_bytes(place + kRecordContent, content, size);
+    const uint16_t crc = record_crc(place, size);
+    Byte* check = place + add_wrap(size, kRecordContent);
+    *check++ = narrow_wrap_u8(crc);
+    *check = narrow_wrap_u8(shift_floor<8>(crc));
+    *place = kRecordValid;
 }
 
 /// Is the record whole?
 template <class Byte>
 [[gnu::noinline]] constexpr bool record_is_valid(const Byte* place, uint8_t size) {
     if (uint8_t{*place} != kRecordValid) return false;
-    uint16_t crc = kCrc16Start;
-    for (uint8_t left = add_wrap(size, uint8_t{1}); left != 0; --left) {
-        crc = crc16_add(crc, uint8_t{*++place});
-    }
-    const uint8_t low = *++place;
-    const uint8_t high = *++place;
+    const uint16_t crc = record_crc(place, size);
+    place += add_wrap(size, kRecordContent);
+    const uint8_t low = *place++;
+    const uint8_t high = *place;
     return low == narrow_wrap_u8(crc) && high == narrow_wrap_u8(shift_floor<8>(crc));
 }
-
-/// Where the content of a record begins.
-inline constexpr uint8_t kRecordContent = 2;
 
 }  // namespace rover

@@ -30,7 +30,7 @@ constexpr void save_checkpoint(Byte* area, CheckpointPlace& newest, const PoseRe
 
 /// Can a slot be used: is it whole, and of this format?
 template <class Byte>
-constexpr bool checkpoint_is_valid(const Byte* area, uint8_t slot) {
+[[gnu::noinline]] constexpr bool checkpoint_is_valid(const Byte* area, uint8_t slot) {
     const Byte* place = area + slot;
     return record_is_valid(place, sizeof(PoseRecord)) &&
            uint8_t{place[kRecordContent + sizeof(PoseRecord) - 1]} == kPoseRecordFormat;

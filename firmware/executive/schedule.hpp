@@ -27,12 +27,11 @@ constexpr bool step_is_due(const Schedule& schedule, uint16_t tick) {
 /// @return  false: it is late
 /// @cost    one round of the loop for each missed step
 inline bool begin_due_step(Schedule& schedule, uint16_t tick) {
-    uint16_t late_ticks = sub_wrap(tick, schedule.due_tick);
+    const bool on_time = schedule.due_tick == tick;
     schedule.due_tick = add_wrap(schedule.due_tick, kTicksPerStep);
-    if (late_ticks == 0) return true;
+    if (on_time) return true;
     schedule.late_steps = add_wrap(schedule.late_steps, uint16_t{1});
-    while (late_ticks >= kTicksPerStep) {
-        late_ticks = sub_wrap(late_ticks, kTicksPerStep);
+    while (step_is_due(schedule, tick)) {
         schedule.due_tick = add_wrap(schedule.due_tick, kTicksPerStep);
         schedule.missed_steps = add_wrap(uint16_t{schedule.missed_steps}, uint16_t{1});
     }

@@ -60,8 +60,13 @@ inline void read_wheels(const volatile uint16_t& tick_count,
                         const WheelCount (&wheels)[hal::kWheelCount], hal::RawInputs& inputs) {
     for (uint8_t tries = 2; tries != 0; --tries) {
         const uint16_t tick = tick_count;
-        uint16_t* place = inputs.tach_count;
-        for (const WheelCount& wheel : wheels) *place++ = wheel.count;
+        volatile uint16_t* const place = inputs.tach_count;  // stored at once, not kept meanwhile
+        place[0] = wheels[0].count;
+        place[1] = wheels[1].count;
+        place[2] = wheels[2].count;
+        place[3] = wheels[3].count;
+        place[4] = wheels[4].count;
+        place[5] = wheels[5].count;
         inputs.tick_count = tick_count;
         if (inputs.tick_count == tick) return;
     }

@@ -47,96 +47,70 @@ enum class AckResult : uint8_t {
 };
 
 /// Finds frames in a stream. After damage it looks for the next sync bytes behind the point where
-/// it noticed.
+/// it noticed: a size that is too large, or the end of a frame whose check is wrong.
 template <class Format>
 struct FrameParser {
-    enum class Next : uint8_t { sync0, sync1, type, size, payload, crc_low, crc_high };
-
-    Next next = Next::sync0;
-    uint8_t type = 0;
-    uint8_t size = 0;
-    uint8_t count = 0;  ///< payload bytes so far
-    uint16_t crc = 0;
+    uint8_t taken = 0;    ///< bytes of a frame so far, [0, kFrameOverhead + kPayloadMax)
     uint8_t refused = 0;  ///< frames with a wrong check or size, modulo 2^8
-    uint8_t payload[Format::kPayloadMax] = {};
+    uint8_t frame[kFrameOverhead + Format::kPayloadMax] = {};
+
+    [[nodiscard]] constexpr uint8_t type() const { return frame[2]; }
+    [[nodiscard]] constexpr uint8_t size() const { return frame[3]; }
+    [[nodiscard]] constexpr const uint8_t* payload() const { return frame + 4; }
 
     /// Forgets a frame that was begun: its sender paused.
-    constexpr void quiet() { next = Next::sync0; }
+    constexpr void quiet() { taken = 0; }
 
     /// Takes one byte.
     /// @return  true: it was the last of a good frame; type, size and payload are valid until the
     ///          next call
-    constexpr bool take(uint8_t byte) {
-        switch (next) {
-            case Next::sync0:
-                return seek(byte);
-            case Next::sync1:
-                if (byte != Format::kSync1) return seek(byte);
-                crc = kCrc16Start;
-                next = Next::type;
-                return false;
-            case Next::crc_low:
-                next = Next::crc_high;
-                if (byte != narrow_wrap_u8(crc)) refuse();
-                return false;
-            case Next::crc_high:
-                next = Next::sync0;
-                if (byte == narrow_wrap_u8(shift_floor<8>(crc))) return true;
-                refuse();
-                return false;
-            default:
-                crc = crc16_add(crc, byte);
-                take_content(byte);
-                return false;
+    [[gnu::noinline]] constexpr bool take(uint8_t byte) {
+        const uint8_t place = taken;
+        if (place < 2 && byte != (place == 0 ? Format::kSync0 : Format::kSync1)) {
+            taken = 0;
+            if (byte == Format::kSync0) taken = 1;
+            return false;
         }
+        frame[place] = byte;
+        const uint8_t count = add_wrap(place, uint8_t{1});
+        taken = count;
+        if (place == 3 && byte > Format::kPayloadMax) return refuse();
+        if (place < kFrameOverhead - 1 || count != add_wrap(size(), kFrameOverhead)) return false;
+        if (!check_is_right()) return refuse();
+        taken = 0;
+        return true;
     }
 
 private:
-    constexpr bool seek(uint8_t byte) {
-        next = byte == Format::kSync0 ? Next::sync1 : Next::sync0;
+    constexpr bool refuse() {
+        refused = add_wrap(refused, uint8_t{1});
+        taken = 0;
         return false;
     }
-    constexpr void refuse() {
-        refused = add_wrap(refused, uint8_t{1});
-        next = Next::sync0;
+    [[nodiscard]] constexpr bool check_is_right() const {
+        const uint8_t covered = add_wrap(size(), uint8_t{2});
+        const uint16_t crc = crc16_block<Byte>(kCrc16Start, frame + 2, covered);
+        const uint8_t* const check = frame + 2 + covered;
+        return check[0] == narrow_wrap_u8(crc) && check[1] == narrow_wrap_u8(shift_floor<8>(crc));
     }
-    constexpr void take_content(uint8_t byte) {
-        if (next == Next::type) {
-            type = byte;
-            next = Next::size;
-            return;
-        }
-        if (next == Next::size) {
-            size = byte;
-            count = 0;
-            next = byte == 0 ? Next::crc_low : Next::payload;
-            if (byte > Format::kPayloadMax) refuse();
-            return;
-        }
-        payload[count] = byte;
-        count = add_wrap(count, uint8_t{1});
-        if (count == size) next = Next::crc_low;
-    }
+    /// As elsewhere, so that one function serves all.
+    using Byte = volatile uint8_t;
 };
 using UplinkParser = FrameParser<Uplink>;
 using DownlinkParser = FrameParser<Downlink>;
 
-/// Writes one frame. @param sink  has push(uint8_t); gets kFrameOverhead + `size` bytes
-/// @param payload  read byte by byte, may be volatile
-template <class Format, class Sink, class Byte>
-constexpr void write_frame(Sink& sink, uint8_t type, const Byte* payload, uint8_t size) {
-    uint16_t crc = crc16_add(crc16_add(kCrc16Start, type), size);
-    sink.push(Format::kSync0);
-    sink.push(Format::kSync1);
-    sink.push(type);
-    sink.push(size);
-    for (; size != 0; --size) {
-        const uint8_t byte = *payload++;
-        sink.push(byte);
-        crc = crc16_add(crc, byte);
-    }
-    sink.push(narrow_wrap_u8(crc));
-    sink.push(narrow_wrap_u8(shift_floor<8>(crc)));
+/// Writes one frame.
+/// @param sink  has push_all(bytes, count); gets kFrameOverhead + `size` bytes
+/// @param payload  read byte by byte
+template <class Format, class Sink>
+void write_frame(Sink& sink, uint8_t type, const volatile uint8_t* payload, uint8_t size) {
+    const volatile uint8_t head[4] = {Format::kSync0, Format::kSync1, type, size};
+    uint16_t crc = crc16_block(kCrc16Start, head + 2, 2);
+    if (size != 0) crc = crc16_block(crc, payload, size);
+    sink.push_all(head, sizeof head);
+    sink.push_all(payload, size);
+    const volatile uint8_t check[2] = {narrow_wrap_u8(crc), narrow_wrap_u8(shift_floor<8>(crc))};
+    sink.push_all(check, sizeof check);
 }
 
 }  // namespace rover

@@ -21,12 +21,13 @@ struct AnalogInputs {
 
     /// Sum of 16 conversions.
     /// @param channel  multiplexer input, [0, 15]
-    /// @return   u16 Q4 counts, [0, 65520]; kAdcAbsent: the converter was busy, or a
-    ///           conversion had no end
+    /// @param sum      u16 Q4 counts, [0, 65520]; kAdcAbsent without an answer
+    /// @return   false: no answer; the converter was busy, or a conversion had no end
     /// @context  task, interrupts enabled; disables them for one conversion at a time
-    static uint16_t sum_of_16(uint8_t channel) {
+    [[nodiscard]] static bool sum_of_16(uint8_t channel, uint16_t& sum) {
+        sum = kAdcAbsent;
         Ppi::write_a(channel);
-        if (!settles()) return kAdcAbsent;
+        if (!settles()) return false;
         uint16_t high_sum = 0;
         uint8_t low_sum = 0;  // 16 times 15 at most
         uint8_t left = kConversions - 1;
@@ -37,18 +38,20 @@ struct AnalogInputs {
             const uint8_t low = Adc::low();
             Bus::let_interrupts_in();
             Adc::start(low);
-            (void)Adc::busy();  // with it, wait() below looks first when 35 us are over
             high_sum = static_cast<uint16_t>(high_sum + high);
             low_sum = static_cast<uint8_t>(low_sum + (low >> 4));
+            (void)Adc::busy();
+            (void)Adc::busy();  // with these, wait() looks first when 35 us are just over
             if (--left != 0) continue;
             if (!Adc::wait()) break;
             high_sum = static_cast<uint16_t>(high_sum + Adc::high());
             low_sum = static_cast<uint8_t>(low_sum + (Adc::low() >> 4));
             Bus::enable_interrupts();
-            return static_cast<uint16_t>((high_sum << 4) + low_sum);
+            sum = static_cast<uint16_t>((high_sum << 4) + low_sum);
+            return true;
         }
         Bus::enable_interrupts();
-        return kAdcAbsent;
+        return false;
     }
 
     /// One conversion of one channel. Leaves the multiplexer as it was.

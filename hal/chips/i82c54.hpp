@@ -74,6 +74,19 @@ struct I82c54 {
         start<kCounter, Mode::terminal_count>(0xFFFE);
     }
 
+    /// start_pulses() for the three counters.
+    static void start_all_pulses() {
+        Bus::template out<kControl>(kTwoBytes);
+        Bus::template out<kControl>(1 << 6 | kTwoBytes);
+        Bus::template out<kControl>(2 << 6 | kTwoBytes);
+        Bus::template out<kPort>(0xFE);
+        Bus::template out<kPort + 1>(0xFE);
+        Bus::template out<kPort + 2>(0xFE);
+        Bus::template out<kPort>(0xFF);
+        Bus::template out<kPort + 1>(0xFF);
+        Bus::template out<kPort + 2>(0xFF);
+    }
+
     /// Latches what pulses() needs, of three counters at one moment. Then each pulses() once.
     static void latch_pulses() { Bus::template out<kControl>(kLatchAllBoth); }
 

@@ -38,8 +38,7 @@ struct I82c55a {
     /// @ref  "Single Bit Set/Reset Feature"
     template <uint8_t kMask>
     static void put_c(bool level) {
-        constexpr uint8_t kClear = bit_word<kMask>();
-        Bus::template out<kControl>(level ? kClear | 1 : kClear);
+        command_c(level ? kClearWord<kMask> | 1 : kClearWord<kMask>);
     }
     template <uint8_t kMask>
     static void set_c() {
@@ -50,8 +49,10 @@ struct I82c55a {
         put_c<kMask>(false);
     }
 
+    /// The same by control word: kClearWord, or that with bit 0 set.
+    static void command_c(uint8_t word) { Bus::template out<kControl>(word); }
+
 private:
-    /// Control word that clears a bit: its number in bits 3 to 1.
     template <uint8_t kMask>
     static constexpr uint8_t bit_word() {
         static_assert(kMask != 0 && (kMask & (kMask - 1)) == 0, "one bit");
@@ -59,6 +60,11 @@ private:
         for (uint8_t rest = kMask; rest != 1; rest >>= 1) word += 2;
         return word;
     }
+
+public:
+    /// Control word that clears a bit of port C: its number in bits 3 to 1.
+    template <uint8_t kMask>
+    static constexpr uint8_t kClearWord = bit_word<kMask>();
 };
 
 }  // namespace hal

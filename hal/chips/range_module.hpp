@@ -30,7 +30,7 @@ static_assert(sizeof(RangeFrame) == 2 + 2 * kRangeSampleCount);
 /// @tparam kSelectBit  mask in port C, output
 template <class Ppi, uint8_t kAckBit, uint8_t kStrobeBit, uint8_t kSelectBit>
 struct RangeModule {
-    static_assert(kAckBit == 1, "ACKNOWLEDGE is compared with bit 0 of a count");
+    static_assert(kAckBit == 1, "ACKNOWLEDGE is compared with bit 0 of a control word");
 
     /// Polls of ACKNOWLEDGE for a byte. One takes at least 27 T (IN, test, jump), so they last at
     /// least 100 us; a module needs 20 us.
@@ -42,33 +42,33 @@ struct RangeModule {
     [[nodiscard]] static RangeStatus read(RangeFrame& frame) {
         uint8_t* next = reinterpret_cast<uint8_t*>(&frame);
         uint8_t sum = 0;
-        uint8_t value = 0;
-        uint8_t left = sizeof(RangeFrame) + 1;  // odd: STROBE is low
+        uint8_t strobe = Ppi::template kClearWord<kStrobeBit>;  // bit 0: its level
+        uint8_t left = sizeof(RangeFrame) + 1;
         RangeStatus status = RangeStatus::absent;
         Ppi::write_c(kSelectBit);
-        for (;;) {
-            sum = static_cast<uint8_t>(sum + value);  // of the byte before: the module is busy now
-            if (!acknowledged(left)) break;
-            value = Ppi::read_a();
+        while (acknowledged(strobe)) {
+            const uint8_t value = Ppi::read_a();
             if (--left == 0) {
                 sum = static_cast<uint8_t>(sum + value);
                 status = sum == kSum ? RangeStatus::ok : RangeStatus::checksum;
                 break;
             }
-            Ppi::template put_c<kStrobeBit>((left & 1) == 0);
+            strobe ^= 1;
+            Ppi::command_c(strobe);
             *next++ = value;  // while the module fetches the next byte
+            sum = static_cast<uint8_t>(sum + value);
         }
         Ppi::write_c(0);
         return status;
     }
 
 private:
-    /// Waits until ACKNOWLEDGE is what STROBE is: low while an odd number of bytes is left.
-    static bool acknowledged(uint8_t left) {
+    /// Waits until ACKNOWLEDGE is what STROBE is.
+    static bool acknowledged(uint8_t strobe) {
         uint8_t polls = kPollsMax + 1;
         do {
             if (--polls == 0) return false;
-        } while (((Ppi::read_c() ^ left) & kAckBit) == 0);
+        } while (((Ppi::read_c() ^ strobe) & kAckBit) != 0);
         return true;
     }
 };

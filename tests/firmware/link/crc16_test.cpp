@@ -37,4 +37,21 @@ TEST(Crc16, IsTheShiftRegisterOfThePolynomialForEveryStateAndForEveryByte) {
     }
 }
 
+TEST(Crc16, ABlockIsItsBytes) {
+    std::uint8_t bytes[256];
+    std::uint16_t expected = 0x1234;
+    for (unsigned count = 1; count <= 256; ++count) {
+        bytes[count - 1] = static_cast<std::uint8_t>(count * 73u >> 1);
+        expected = rover::crc16_add(expected, bytes[count - 1]);
+        EXPECT_EQ(rover::crc16_block(0x1234, bytes, static_cast<std::uint8_t>(count)), expected);
+    }
+}
+
+// What is computed at compile time takes another way to the table.
+TEST(Crc16, IsTheSameAtCompileTime) {
+    constexpr std::uint16_t kOfA = rover::crc16_add(rover::kCrc16Start, 'A');
+    EXPECT_EQ(kOfA, crc_of("A"));
+    EXPECT_EQ(kOfA, 0xB915);
+}
+
 }  // namespace

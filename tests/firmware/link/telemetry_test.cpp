@@ -6,11 +6,11 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/page_table.hpp"
 
 namespace {
 
@@ -130,31 +130,10 @@ TEST(Telemetry, WhatIsReadIsWhatWasWritten) {
 
 // -- The page ------------------------------------------------------------------------------------
 
-using Row = std::vector<std::string>;
+using test_support::Row;
 
-/// Cells of the first table after `heading`, without head and rule.
 std::vector<Row> table_of(const std::string& heading) {
-    std::ifstream page(ROVER_SOURCE_DIR "/docs/spec/telemetry.md");
-    std::vector<Row> rows;
-    std::string line;
-    while (std::getline(page, line) && line != heading) {
-    }
-    while (std::getline(page, line)) {
-        if (!line.starts_with("|")) {
-            if (!rows.empty() || line.starts_with("#")) break;
-            continue;
-        }
-        Row cells;
-        std::stringstream text(line.substr(1));
-        for (std::string cell; std::getline(text, cell, '|');) {
-            const std::size_t begin = cell.find_first_not_of(" `");
-            const std::size_t end = cell.find_last_not_of(" `");
-            cells.push_back(begin == std::string::npos ? "" : cell.substr(begin, end - begin + 1));
-        }
-        rows.push_back(cells);
-    }
-    if (rows.size() >= 2) rows.erase(rows.begin(), rows.begin() + 2);
-    return rows;
+    return test_support::table_of("docs/spec/telemetry.md", heading);
 }
 
 std::string type_name(const std::uint8_t&) {

@@ -62,6 +62,12 @@ TEST(I82c54Accesses, PulsesAreStatusThenCount) {
     EXPECT_EQ(bus.accesses(), "1B=CE <18 <18 <18 <19 <19 <19");
 }
 
+TEST(I82c54Accesses, AllThreeAreStartedByteByByte) {
+    Script bus;
+    Recorded::TimerB::start_all_pulses();
+    EXPECT_EQ(bus.accesses(), "17=30 17=70 17=B0 14=FE 15=FE 16=FE 14=FF 15=FF 16=FF");
+}
+
 /// What no program should do to a timer.
 void expect_no_misuse(const SimBoard& board) {
     for (const auto& timer : board.state.timers) {
@@ -76,11 +82,7 @@ void expect_no_misuse(const SimBoard& board) {
 class I82c54Pulses : public testing::Test {
 protected:
     void SetUp() override { start(); }
-    static void start() {
-        Simulated::TimerB::start_pulses<0>();
-        Simulated::TimerB::start_pulses<1>();
-        Simulated::TimerB::start_pulses<2>();
-    }
+    static void start() { Simulated::TimerB::start_all_pulses(); }
     void pulse(uint8_t wheel, unsigned count) {
         for (unsigned i = 0; i < count; ++i) board.apply(Stimulus::Kind::tach_pulse, wheel, 0);
     }

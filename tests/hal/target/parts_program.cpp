@@ -41,7 +41,9 @@ volatile uint8_t received_status;
     Parts::Usart::reset();
 }
 [[gnu::noinline]] uint16_t sum_of_16(uint8_t channel) {
-    return Parts::AnalogInputs::sum_of_16(channel);
+    uint16_t sum;
+    (void)Parts::AnalogInputs::sum_of_16(channel, sum);
+    return sum;
 }
 [[gnu::noinline]] uint16_t convert(uint8_t channel) {
     return Parts::AnalogInputs::convert(channel);

@@ -31,8 +31,8 @@ TEST(UplinkFrame, IsTheBytesOfThePageAndTheFirmwareReadsThem) {
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         EXPECT_EQ(parser.take(bytes[i]), i + 1 == bytes.size()) << i;
     }
-    EXPECT_EQ(parser.type, 4);
-    EXPECT_EQ(Bytes(parser.payload, parser.payload + parser.size), payload);
+    EXPECT_EQ(parser.type(), 4);
+    EXPECT_EQ(Bytes(parser.payload(), parser.payload() + parser.size()), payload);
 }
 
 TEST(CalibrationPayload, TheFirmwareReadsWhatWasMeant) {

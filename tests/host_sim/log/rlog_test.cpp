@@ -9,6 +9,7 @@
 #include "host_sim/log/log_io.hpp"
 #include "log_samples.hpp"
 #include "rlog_builder.hpp"
+#include "rlog_refusals.hpp"
 
 namespace {
 
@@ -16,39 +17,15 @@ using host_sim::encode_rlog;
 using host_sim::Log;
 using host_sim::LogError;
 using host_sim::read_rlog;
+using log_test::error_of;
 using log_test::from_hex;
 using log_test::little;
+using log_test::payload_at;
 using log_test::plain_head;
 using log_test::plain_step;
+using log_test::refused_at;
 using log_test::RlogBuilder;
 using log_test::small_log;
-
-/// The error that reading `bytes` gives; fails the test if they are accepted.
-LogError error_of(const std::string& bytes) {
-    try {
-        read_rlog(bytes, "x.rlog");
-    } catch (const LogError& error) {
-        return error;
-    }
-    ADD_FAILURE() << "accepted";
-    return {"", {}, "", ""};
-}
-
-testing::AssertionResult refused_at(const std::string& bytes, std::size_t offset,
-                                    const std::string& what) {
-    const LogError error = error_of(bytes);
-    if (error.byte_offset() == static_cast<std::int64_t>(offset) &&
-        std::string(error.what()).find(what) != std::string::npos) {
-        return testing::AssertionSuccess();
-    }
-    return testing::AssertionFailure()
-           << error.what() << " (expected byte " << offset << ": " << what << ")";
-}
-
-/// File offset of byte `at` of the payload of the record that starts at `record`.
-constexpr std::size_t payload_at(std::size_t record, std::size_t at) {
-    return record + 9 + at;
-}
 
 TEST(BitwiseCrc, GivesThePublishedCheckValue) {
     log_test::BitwiseCrc crc;
