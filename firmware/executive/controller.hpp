@@ -30,6 +30,8 @@ constexpr void controller_step(Controller& controller, const hal::RawInputs& inp
     linkage_pose(angles, pose);
     OdometerStep travel;
     odometer_step(controller.odometer, inputs, controller.calibration, travel);
+    controller.since_cycle_q4_mm = add_wrap(controller.since_cycle_q4_mm, travel.travel_q4_mm);
+    controller.past_due_q4_mm = add_wrap(controller.past_due_q4_mm, travel.travel_q4_mm);
     if (travel.valid) set_available(estimates, kAvailableOdometry);
     if (abs_u16(travel.travel_q4_mm) > uint16_t{kCycleTravelQ4Mm}) {
         set_event(estimates, kEventOverspeed);

@@ -32,11 +32,10 @@ struct Controller {
     ScanWatch scan;
     MapGrid map;
     bool started = false;
-    uint16_t sensor_faults = 0;                     ///< tachometer fault of the last cycle
-    int32_t cycle_travel_q4_mm = kCycleTravelQ4Mm;  ///< odometer when the next forward cycle is due
-    int32_t last_travel_q4_mm = 0;                  ///< odometer at the last cycle
-    int32_t last_turn_q4_mm = 0;
-    int16_t odometer_rest_q6 = 0;          ///< remainder of the conversion to 1/64 bin, [0, 24]
+    uint16_t sensor_faults = 0;                  ///< tachometer fault of the last cycle
+    int16_t past_due_q4_mm = -kCycleTravelQ4Mm;  ///< travel past the next forward cycle's due point
+    int16_t since_cycle_q4_mm = 0;               ///< travel since the last cycle
+    uint8_t odometer_rest_q6 = 0;          ///< remainder of the conversion to 1/64 bin, [0, 24]
     int32_t cycle_position_q4_mm = 0;      ///< position at the last cycle
     uint16_t share_q15 = kNoSlipShareQ15;  ///< learned advance of a rim travel, [5460, 32768]
     Side side = Side::none;                ///< side whose linkage made the map
@@ -51,7 +50,7 @@ constexpr void set_initial_values(Controller& controller) {
     controller.map.mean_q12_bin = slip::kMeanNoSlipQ12Bin;
     controller.map.rough_q8_mm = slip::kInitialRoughQ8Mm;
     controller.map.match_cost_q10 = slip::kInitialCostQ10;
-    controller.cycle_travel_q4_mm = kCycleTravelQ4Mm;
+    controller.past_due_q4_mm = -kCycleTravelQ4Mm;
     controller.share_q15 = kNoSlipShareQ15;
 }
 

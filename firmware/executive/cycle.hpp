@@ -50,49 +50,53 @@ constexpr bool can_look_ahead(const LinkagePose& pose, bool scan_fresh) {
     }
 }
 
-/// Rim travel since the last cycle in 1/64 bin, rounded down, saturating; the remainder is carried
-/// to the next. 1/16 mm times 4/25.
-constexpr int16_t cycle_odometer_q6_bin(Controller& controller) {
-    const int32_t travel_q4_mm =
-        sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm);
-    controller.last_travel_q4_mm = controller.odometer.travel_q4_mm;
-    const int32_t scaled =
-        add_wrap(shift_left_wrap<2>(travel_q4_mm), widen_s32(controller.odometer_rest_q6));
-    const bool back = scaled < 0;
-    const uint32_t magnitude =
-        back ? add_wrap(abs_u32(scaled), uint32_t{24}) : narrow_wrap_u32(scaled);
-    const int16_t whole = narrow_sat_s16(div_floor_sat_u16(magnitude, uint16_t{25}));
-    const int16_t result = back ? neg_wrap(whole) : whole;
-    controller.odometer_rest_q6 = sub_wrap(narrow_wrap_s16(scaled), mul_wrap(result, int16_t{25}));
-    if (whole == kMaxOf<int16_t>) controller.odometer_rest_q6 = 0;  // the rest was not told
-    return result;
+/// Rim travel since the last cycle in 1/64 bin, rounded down; the remainder is carried to the next.
+/// 1/16 mm times 4/25. More than 1 m is taken as 1 m.
+[[gnu::noinline]] constexpr int16_t cycle_odometer_q6_bin(Controller& controller) {
+    constexpr uint16_t kMetreQ4Mm = 16000;  // four of them fit 16 bits
+    const bool back = controller.since_cycle_q4_mm < 0;
+    const uint16_t way_q4_mm = min(abs_u16(controller.since_cycle_q4_mm), kMetreQ4Mm);
+    controller.since_cycle_q4_mm = 0;
+    const uint8_t before_q6 = controller.odometer_rest_q6;
+    const uint8_t carried_q6 = back ? sub_wrap(uint8_t{24}, before_q6) : before_q6;
+    const uint16_t way_q6 = add_wrap(shift_left_wrap<2>(way_q4_mm), widen_u16(carried_q6));
+    // 1/25 is 2621.44 in Q16: at most one too few.
+    uint16_t whole = narrow_wrap_u16(shift_floor<16>(mul_wide(way_q6, uint16_t{2621})));
+    uint8_t rest_q6 =
+        sub_wrap(narrow_wrap_u8(way_q6), mul_wrap(narrow_wrap_u8(whole), uint8_t{25}));
+    if (rest_q6 >= 25) {
+        rest_q6 = sub_wrap(rest_q6, uint8_t{25});
+        whole = add_wrap(whole, uint16_t{1});
+    }
+    controller.odometer_rest_q6 = back ? sub_wrap(uint8_t{24}, rest_q6) : rest_q6;
+    const int16_t result = narrow_wrap_s16(whole);
+    return back ? neg_wrap(result) : result;
 }
 
 /// Which cycle, if any, is due after this step's odometry?
 constexpr bool cycle_due(const Controller& controller, CycleMotion& motion) {
-    const int32_t since = sub_wrap(controller.odometer.travel_q4_mm, controller.cycle_travel_q4_mm);
-    if (since >= 0) {
+    if (controller.past_due_q4_mm >= 0) {
         motion = CycleMotion::forward;
         return true;
     }
-    if (since <= -2 * int32_t{kCycleTravelQ4Mm}) {
+    if (controller.past_due_q4_mm <= -2 * kCycleTravelQ4Mm) {
         motion = CycleMotion::reverse;
         return true;
     }
-    const int32_t turn = sub_wrap(controller.odometer.turn_q4_mm, controller.last_turn_q4_mm);
     motion = CycleMotion::turn;
-    return abs_u32(turn) >= uint32_t{kCycleTravelQ4Mm};
+    return abs_u16(controller.odometer.turn_q4_mm) >= uint16_t{kCycleTravelQ4Mm};
 }
 
-/// Sets the odometer reading of the next forward cycle. Forward it counts from the last one, so
-/// that cycles come every 60.0 mm on average; after a step of more than a whole cycle, and in every
+/// Sets when the next forward cycle is due. Forward it counts from the last due point, so that
+/// cycles come every 60.0 mm on average; after a step of more than a whole cycle, and in every
 /// other motion, from here.
 constexpr void schedule_next(Controller& controller, CycleMotion motion) {
-    const int32_t from_here = add_wrap(controller.odometer.travel_q4_mm, int32_t{kCycleTravelQ4Mm});
-    const int32_t from_last = add_wrap(controller.cycle_travel_q4_mm, int32_t{kCycleTravelQ4Mm});
-    const bool ahead = sub_wrap(from_last, controller.odometer.travel_q4_mm) > 0;
-    controller.cycle_travel_q4_mm = motion == CycleMotion::forward && ahead ? from_last : from_here;
-    controller.last_turn_q4_mm = controller.odometer.turn_q4_mm;
+    int16_t past_due_q4_mm = -kCycleTravelQ4Mm;
+    if (motion == CycleMotion::forward && controller.past_due_q4_mm < kCycleTravelQ4Mm) {
+        past_due_q4_mm = sub_wrap(controller.past_due_q4_mm, kCycleTravelQ4Mm);
+    }
+    controller.past_due_q4_mm = past_due_q4_mm;
+    controller.odometer.turn_q4_mm = 0;
 }
 
 /// Has somebody moved the vehicle while its wheels stood still?

@@ -80,10 +80,9 @@ constexpr int16_t learned_advance(const Controller& controller, int16_t rim_trav
     Estimates& estimates = controller.estimates;
     const MapGrid& map = controller.map;
     // Between cycles the position runs on with the learned share of the odometer.
-    const int16_t since_cycle_q4_mm =
-        narrow_sat_s16(sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm));
-    estimates.position_q4_mm = add_wrap(controller.cycle_position_q4_mm,
-                                        widen_s32(learned_advance(controller, since_cycle_q4_mm)));
+    estimates.position_q4_mm =
+        add_wrap(controller.cycle_position_q4_mm,
+                 widen_s32(learned_advance(controller, controller.since_cycle_q4_mm)));
     estimates.odometer_q4_mm = controller.odometer.travel_q4_mm;
     if (bit_and(estimates.available, uint8_t{kAvailableLinkage}) == 0) return;
     // Backwards no new ground is felt: the sinkage would be that of another place.

@@ -129,7 +129,7 @@ TEST(Odometer, AnUpsetCounterIsNotDriven) {
     Wheels wheels;
     wheels.start();
     for (int i = 0; i < 100; ++i) wheels.step(all(1.0));
-    for (const std::uint16_t jump : {std::uint16_t{0x8000}, std::uint16_t{16001}}) {
+    for (const std::uint16_t jump : {std::uint16_t{0x8000}, std::uint16_t{1901}}) {
         const double before_mm = wheels.measured_mm();
         for (std::uint16_t& count : wheels.inputs.tach_count) {
             count = static_cast<std::uint16_t>(count + jump);
@@ -201,7 +201,7 @@ TEST(Median3, IsTheMiddleOneInEveryOrder) {
     do {
         EXPECT_EQ(rover::median3(values[0], values[1], values[2]), 3);
     } while (std::next_permutation(values.begin(), values.end()));
-    EXPECT_EQ(rover::median3(4, 4, -9), 4);
+    EXPECT_EQ(rover::median3(std::int16_t{4}, std::int16_t{4}, std::int16_t{-9}), 4);
 }
 
 }  // namespace
