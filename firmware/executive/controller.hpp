@@ -23,9 +23,9 @@ constexpr void controller_step(Controller& controller, const hal::RawInputs& inp
     Estimates& estimates = controller.estimates;
     const bool first = !controller.started;
     begin_step(controller, inputs);
-    Angles angles;
-    estimates.faults = bit_or(
-        estimates.faults, read_angles(inputs, controller.calibration, controller.stuck, angles));
+    Angles& angles = controller.angles;
+    read_angles(inputs, controller.calibration, controller.stuck, angles);
+    estimates.faults = bit_or(estimates.faults, widen_u16(angles.faults));
     LinkagePose pose;
     linkage_pose(angles, pose);
     OdometerStep travel;
@@ -46,8 +46,7 @@ constexpr void controller_step(Controller& controller, const hal::RawInputs& inp
     const bool due =
         moved_at_rest(controller, pose, travel.moving) || cycle_due(controller, motion);
     if (due) {
-        run_cycle(controller, inputs, pose, angles[hal::AngleChannel::pitch].brad, scan_fresh,
-                  motion);
+        run_cycle(controller, inputs, pose, angles[hal::AngleChannel::pitch], scan_fresh, motion);
     }
     if (due || first) report_cycle(controller);
     estimates.faults = bit_or(estimates.faults, controller.sensor_faults);

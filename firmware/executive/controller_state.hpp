@@ -28,6 +28,7 @@ struct Controller {
     uint16_t calibration_fault = 0;  ///< kFaultCalibration when nominal values are in use
     Estimates estimates;
     StuckWatch stuck;
+    Angles angles;  ///< of this step
     Odometer odometer;
     ScanWatch scan;
     MapGrid map;

@@ -96,11 +96,10 @@ constexpr int16_t learned_advance(const Controller& controller, int16_t rim_trav
 /// Angles and linkage into the estimates.
 constexpr void report_attitude(Estimates& estimates, const Angles& angles,
                                const LinkagePose& pose) {
-    const AngleReading& pitch = angles[hal::AngleChannel::pitch];
-    const AngleReading& roll = angles[hal::AngleChannel::roll];
-    estimates.pitch_brad = pitch.brad;
-    estimates.roll_brad = roll.brad;
-    if (pitch.valid && roll.valid) set_available(estimates, kAvailableAttitude);
+    using enum hal::AngleChannel;
+    estimates.pitch_brad = angles[pitch];
+    estimates.roll_brad = angles[roll];
+    if (angles.has(pitch) && angles.has(roll)) set_available(estimates, kAvailableAttitude);
     estimates.rocker_brad = pose.rocker_brad;
     estimates.bogie_brad = pose.bogie_brad;
     estimates.height_middle_q4_mm = pose.middle_height_q4_mm;

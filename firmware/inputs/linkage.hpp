@@ -2,7 +2,8 @@
 // Depends on   config/vehicle.hpp, core/sine.hpp, inputs/angles.hpp.
 // Source       docs/design/controller.md, "Kinematics": z(1), z(2) from rocker and bogie angle,
 //              z(3) ... from the range samples in the body frame.
-// Bounds       two sines per step; in a cycle four more, and four products per range sample.
+// Bounds       two sines and two products by a byte in a step; in a cycle four more sines, and two
+//              products and two by a byte a range sample.
 #pragma once
 
 #include "firmware/config/vehicle.hpp"
@@ -22,46 +23,57 @@ struct LinkagePose {
     int16_t front_height_q4_mm = 0;   ///< z(2)
     uint16_t middle_distance_q6_bin = 0;
     uint16_t front_distance_q6_bin = 0;
-    int16_t rocker_sine_q15 = 0;
-    int16_t rocker_cosine_q15 = 0;  ///< with the distances
 };
 
-/// A sum of lengths times Q15 ratios, rounded half up to the length's format, saturating.
-/// @param sum  below 2^31 - 2^14: three products of this vehicle's lengths are
-constexpr int16_t whole_q15(int32_t sum) {
-    return narrow_sat_s16(shift_floor<15>(add_wrap(sum, int32_t{0x4000})));
+// The rocker is three bogie arms b, so R x -+ b y = 2 b (x + (x -+ y) / 2).
+static_assert(vehicle::kRockerQ4Mm == 3 * vehicle::kBogieArmQ4Mm);
+static_assert(vehicle::kRockerQ6Bin == 3 * vehicle::kBogieArmQ6Bin);
+
+/// x + (x + y) / 2, s16 Q14, rounded down.
+/// @param rocker_q14, bogie_q14  [-16383, 16383], so that nothing overflows
+constexpr int16_t arms_q14(int16_t rocker_q14, int16_t bogie_q14) {
+    return add_wrap(rocker_q14, average(rocker_q14, bogie_q14));
 }
-static_assert(32768l * 32768 + 32768l * (vehicle::kBodyReferenceQ4Mm + vehicle::kLookAheadQ4Mm[1]) <
-              2147483647l - 0x4000);
+/// Twice a bogie's arm times a ratio, s16 Q4 mm, rounded half up.
+constexpr int16_t arms_q4_mm(int16_t arms_q14) {
+    static_assert(2ul * vehicle::kBogieArmQ4Mm * 512 == 125ul * 16384);
+    const int16_t twice = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{125}, arms_q14)));
+    return average(twice, int16_t{1});
+}
+/// The same in 1/64 bin; what lies behind counts as 0.
+constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
+    static_assert(2ul * vehicle::kBogieArmQ6Bin * 256 == 10ul * 16384);
+    const int32_t distance_q14 = add_wrap(mul_wide(uint8_t{10}, arms_q14), int32_t{0x80});
+    return arms_q14 < 0 ? uint16_t{0} : narrow_wrap_u16(shift_floor<8>(distance_q14));
+}
 
 /// Pose of the left side; of the right one when the left bogie's potentiometer is not valid.
 /// Distances are left out: see add_distances().
 [[gnu::noinline]] constexpr void linkage_pose(const Angles& angles, LinkagePose& pose) {
+    using enum hal::AngleChannel;
     pose = LinkagePose{};
-    const AngleReading& pitch = angles[hal::AngleChannel::pitch];
-    const AngleReading& differential = angles[hal::AngleChannel::differential];
-    const AngleReading& left = angles[hal::AngleChannel::bogie_left];
-    const AngleReading& right = angles[hal::AngleChannel::bogie_right];
-    if (!pitch.valid || !differential.valid || (!left.valid && !right.valid)) return;
-    pose.side = left.valid ? Side::left : Side::right;
-    pose.rocker_brad = left.valid ? add_wrap(pitch.brad, differential.brad)
-                                  : sub_wrap(pitch.brad, differential.brad);
-    pose.bogie_brad = add_wrap(pose.rocker_brad, left.valid ? left.brad : right.brad);
-    pose.rocker_sine_q15 = sine_q15(pose.rocker_brad);
-    const int32_t rocker_q19 = mul_wide(vehicle::kRockerQ4Mm, pose.rocker_sine_q15);
-    const int32_t bogie_q19 = mul_wide(vehicle::kBogieArmQ4Mm, sine_q15(pose.bogie_brad));
-    pose.middle_height_q4_mm = whole_q15(sub_wrap(rocker_q19, bogie_q19));
-    pose.front_height_q4_mm = whole_q15(add_wrap(rocker_q19, bogie_q19));
+    const bool left = angles.has(bogie_left);
+    if (!angles.has(pitch) || !angles.has(differential) || (!left && !angles.has(bogie_right))) {
+        return;
+    }
+    pose.side = left ? Side::left : Side::right;
+    const int16_t turned_brad = angles[differential];
+    pose.rocker_brad =
+        left ? add_wrap(angles[pitch], turned_brad) : sub_wrap(angles[pitch], turned_brad);
+    pose.bogie_brad = add_wrap(pose.rocker_brad, left ? angles[bogie_left] : angles[bogie_right]);
+    const int16_t rocker_q14 = sine_q14(pose.rocker_brad);
+    const int16_t bogie_q14 = sine_q14(pose.bogie_brad);
+    pose.middle_height_q4_mm = arms_q4_mm(arms_q14(rocker_q14, neg_wrap(bogie_q14)));
+    pose.front_height_q4_mm = arms_q4_mm(arms_q14(rocker_q14, bogie_q14));
 }
 
 /// The distances of a pose: only a slip-and-sinkage cycle needs them.
 constexpr void add_distances(LinkagePose& pose) {
     if (pose.side == Side::none) return;
-    pose.rocker_cosine_q15 = cosine_q15(pose.rocker_brad);
-    const int32_t rocker_q21 = mul_wide(vehicle::kRockerQ6Bin, pose.rocker_cosine_q15);
-    const int32_t bogie_q21 = mul_wide(vehicle::kBogieArmQ6Bin, cosine_q15(pose.bogie_brad));
-    pose.middle_distance_q6_bin = narrow_sat_u16(whole_q15(sub_wrap(rocker_q21, bogie_q21)));
-    pose.front_distance_q6_bin = narrow_sat_u16(whole_q15(add_wrap(rocker_q21, bogie_q21)));
+    const int16_t rocker_q14 = cosine_q14(pose.rocker_brad);
+    const int16_t bogie_q14 = cosine_q14(pose.bogie_brad);
+    pose.middle_distance_q6_bin = arms_q6_bin(arms_q14(rocker_q14, neg_wrap(bogie_q14)));
+    pose.front_distance_q6_bin = arms_q6_bin(arms_q14(rocker_q14, bogie_q14));
 }
 
 /// Pose with distances.
@@ -78,21 +90,49 @@ struct GroundPoint {
     uint16_t distance_q6_bin = 0;
 };
 
+/// The upper half of a product, rounded down.
+[[gnu::noinline]] constexpr int16_t mul_upper(int16_t a, int16_t b) {
+    return narrow_wrap_s16(shift_floor<16>(mul_wide(a, b)));
+}
+
+inline constexpr int16_t kBinPerMmQ15 = 20972;  ///< 16/25: 1/256 bin in 1/16 mm
+
 /// What every range sample of a scan shares: the body pivot, and the body's direction.
 struct LookAhead {
-    int32_t pivot_up_q19_mm = 0;     ///< s32 Q19 mm, above the rear contact's axle
-    int32_t pivot_along_q19_mm = 0;  ///< ahead of it
-    int16_t pitch_sine_q15 = 0;
-    int16_t pitch_cosine_q15 = 0;
+    int16_t pivot_up_q4_mm = 0;      ///< above the rear contact's axle
+    int16_t pivot_along_q8_bin = 0;  ///< ahead of it
+    int16_t sine_q14 = 0;            ///< of the pitch
+    int16_t cosine_q14 = 0;
+    int16_t sine_q14_bin = 0;  ///< of the pitch, times 16/25: 1/16 mm are so many 1/256 bin
 };
 
+// The body pivot is half way along the rocker, and z(1) + z(2) is twice the rocker's height.
+static_assert(2 * vehicle::kBodyReferenceQ4Mm == vehicle::kRockerQ4Mm);
+
 /// @param pose  with distances
+/// @param pitch_brad  [-1/4, 1/4] turn
 constexpr LookAhead look_ahead(const LinkagePose& pose, int16_t pitch_brad) {
-    using vehicle::kBodyReferenceQ4Mm;
-    return {mul_wide(kBodyReferenceQ4Mm, pose.rocker_sine_q15),
-            mul_wide(kBodyReferenceQ4Mm, pose.rocker_cosine_q15), sine_q15(pitch_brad),
-            cosine_q15(pitch_brad)};
+    LookAhead view;
+    view.pivot_up_q4_mm =
+        shift_floor<2>(add_wrap(pose.middle_height_q4_mm, pose.front_height_q4_mm));
+    view.pivot_along_q8_bin =
+        narrow_wrap_s16(add_wrap(pose.middle_distance_q6_bin, pose.front_distance_q6_bin));
+    view.sine_q14 = sine_q14(pitch_brad);
+    view.cosine_q14 = cosine_q14(pitch_brad);
+    view.sine_q14_bin = mul_upper(shift_left_wrap<1>(view.sine_q14), kBinPerMmQ15);
+    return view;
 }
+
+/// How far ahead the samples look: in units of 4 mm, less half a millimetre, and in bins.
+inline constexpr uint8_t kAheadQ4Mm64[vehicle::kLookAheadCount] = {103, 153};
+inline constexpr uint8_t kAheadQ8Bin64[vehicle::kLookAheadCount] = {66, 98};
+static_assert(vehicle::kLookAheadQ4Mm[0] == 64 * kAheadQ4Mm64[0] + 8 &&
+              vehicle::kLookAheadQ4Mm[1] == 64 * kAheadQ4Mm64[1] + 8);
+static_assert(vehicle::kLookAheadQ4Mm[0] * 16l == 25l * 64 * kAheadQ8Bin64[0] &&
+              vehicle::kLookAheadQ4Mm[1] * 16l == 25l * 64 * kAheadQ8Bin64[1]);
+
+inline constexpr int16_t kRangeMaxQ1Mm = 800;     ///< 400 mm up or down: beyond is taken as this
+inline constexpr uint16_t kRadiusMaxQ4Mm = 1600;  ///< 100 mm
 
 /// Range sample `index` turned from the body frame into the frame of the rear contact.
 /// @param range_q1_mm       s16 Q1 mm, offset already taken off; level ground reads 0
@@ -100,20 +140,25 @@ constexpr LookAhead look_ahead(const LinkagePose& pose, int16_t pitch_brad) {
 [[gnu::noinline]] constexpr void ground_point(const LookAhead& view, uint8_t index,
                                               int16_t range_q1_mm, uint16_t wheel_radius_q4_mm,
                                               GroundPoint& point) {
-    const uint16_t ahead_q4_mm = vehicle::kLookAheadQ4Mm[index];
-    const int16_t radius_q4_mm = narrow_sat_s16(wheel_radius_q4_mm);
-    const int16_t below_q4_mm = sub_sat(shift_left_sat<3>(range_q1_mm), radius_q4_mm);
-    const int32_t up_q19_mm =
-        add_wrap(add_wrap(view.pivot_up_q19_mm, mul_wide(ahead_q4_mm, view.pitch_sine_q15)),
-                 mul_wide(below_q4_mm, view.pitch_cosine_q15));
-    const int32_t along_q19_mm =
-        sub_wrap(add_wrap(view.pivot_along_q19_mm, mul_wide(ahead_q4_mm, view.pitch_cosine_q15)),
-                 mul_wide(below_q4_mm, view.pitch_sine_q15));
-    point.height_q4_mm = add_sat(whole_q15(up_q19_mm), radius_q4_mm);
-    // mm Q4 to 1/64 bin: times 4/25, which is 10485.8 in Q16.
-    const uint16_t along_q4_mm = narrow_sat_u16(whole_q15(along_q19_mm));
-    point.distance_q6_bin = narrow_wrap_u16(
-        shift_floor<16>(add_wrap(mul_wide(along_q4_mm, uint16_t{10486}), uint32_t{0x8000})));
+    const int16_t radius_q4_mm = narrow_wrap_s16(min(wheel_radius_q4_mm, kRadiusMaxQ4Mm));
+    const int16_t range_q6_mm =
+        shift_left_wrap<5>(clamp(range_q1_mm, static_cast<int16_t>(-kRangeMaxQ1Mm), kRangeMaxQ1Mm));
+    const int16_t below_q6_mm = sub_wrap(range_q6_mm, shift_left_wrap<2>(radius_q4_mm));
+    // Half up, and one more for the two terms that are rounded down.
+    const int32_t ahead_up_q12_mm =
+        add_wrap(mul_wide(kAheadQ4Mm64[index], view.sine_q14), int32_t{0x180});
+    const int16_t rest_up_q4_mm = shift_floor<11>(view.sine_q14);
+    const int16_t up_q4_mm =
+        add_wrap(add_wrap(narrow_wrap_s16(shift_floor<8>(ahead_up_q12_mm)), rest_up_q4_mm),
+                 mul_upper(below_q6_mm, view.cosine_q14));
+    point.height_q4_mm = add_wrap(add_wrap(view.pivot_up_q4_mm, up_q4_mm), radius_q4_mm);
+    const int16_t ahead_q8_bin =
+        narrow_wrap_s16(shift_floor<8>(mul_wide(kAheadQ8Bin64[index], view.cosine_q14)));
+    const int16_t along_q8_bin = add_wrap(
+        sub_wrap(ahead_q8_bin, mul_upper(below_q6_mm, view.sine_q14_bin)), view.pivot_along_q8_bin);
+    point.distance_q6_bin =
+        along_q8_bin < 0 ? uint16_t{0} : narrow_wrap_u16(shift_round_half_up<2>(along_q8_bin));
 }
+static_assert(32l * kRangeMaxQ1Mm + 4l * kRadiusMaxQ4Mm < 32768, "below_q6_mm");
 
 }  // namespace rover

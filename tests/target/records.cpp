@@ -138,6 +138,10 @@ Record record_of(const rover::Controller& controller) {
     add(record, controller.estimates);
     record.field("stuck.last_q4_count", controller.stuck.last_q4_count);
     record.field("stuck.same_cycles", controller.stuck.same_cycles);
+    record.field("stuck.stuck", controller.stuck.stuck);
+    record.field("angles.brad", controller.angles.brad);
+    record.field("angles.valid", controller.angles.valid);
+    record.field("angles.faults", controller.angles.faults);
     add(record, controller.odometer);
     record.field("scan.last_scan_count", controller.scan.last_scan_count);
     record.field("scan.age_steps", controller.scan.age_steps);
