@@ -99,6 +99,12 @@ constexpr void schedule_next(Controller& controller, CycleMotion motion) {
     controller.odometer.turn_q4_mm = 0;
 }
 
+/// Are two heights more than kMovedQ4Mm apart?
+constexpr bool has_moved(int16_t height_q4_mm, int16_t rest_q4_mm) {
+    const uint16_t apart = narrow_wrap_u16(sub_wrap(height_q4_mm, rest_q4_mm));
+    return add_wrap(apart, kMovedQ4Mm) > 2 * kMovedQ4Mm;
+}
+
 /// Has somebody moved the vehicle while its wheels stood still?
 constexpr bool moved_at_rest(Controller& controller, const LinkagePose& pose, bool moving) {
     if (moving || pose.side == Side::none || pose.side != controller.side) {
@@ -111,9 +117,8 @@ constexpr bool moved_at_rest(Controller& controller, const LinkagePose& pose, bo
         controller.rest_front_q4_mm = pose.front_height_q4_mm;
         return false;
     }
-    const bool moved =
-        abs_u16(sub_sat(pose.middle_height_q4_mm, controller.rest_middle_q4_mm)) > kMovedQ4Mm ||
-        abs_u16(sub_sat(pose.front_height_q4_mm, controller.rest_front_q4_mm)) > kMovedQ4Mm;
+    const bool moved = has_moved(pose.middle_height_q4_mm, controller.rest_middle_q4_mm) ||
+                       has_moved(pose.front_height_q4_mm, controller.rest_front_q4_mm);
     if (moved) controller.resting = false;
     return moved;
 }
