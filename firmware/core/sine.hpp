@@ -24,8 +24,9 @@ namespace rover {
     const U16 place = shift_left_wrap<1>(phase_brad);
     const U8 index = narrow_wrap_u8(shift_floor<8>(place));  // [0, 128]
     const U8 fraction_q8 = narrow_wrap_u8(place);
-    const U16 low_q14 = kSineQuarterQ14[index_of(index)];
-    const U16 high_q14 = kSineQuarterQ14[index_of(add_wrap(index, U8{1}))];
+    const auto* const entry = kSineQuarterQ14 + index_of(index);
+    const U16 low_q14 = entry[0];
+    const U16 high_q14 = entry[1];
     // Neighbours differ by 201 at most.
     const U8 step_q14 = sub_wrap(narrow_wrap_u8(high_q14), narrow_wrap_u8(low_q14));
     const U16 rise_q22 = add_wrap(mul_wide(step_q14, fraction_q8), U16{0x80});

@@ -35,6 +35,7 @@ struct Angles {
     int16_t brad[hal::kAngleChannelCount] = {};  ///< 0 where not valid
     uint8_t valid = 0;                           ///< channel bits: the sensor gave an angle
     uint8_t faults = 0;  ///< channel bits: it is there, and not to be believed
+    uint8_t stuck = 0;   ///< channel bits: it repeats what it said when it was found stuck
 
     constexpr int16_t operator[](hal::AngleChannel which) const {
         return brad[static_cast<uint8_t>(which)];
@@ -45,15 +46,18 @@ struct Angles {
 };
 
 /// angle = (count - zero) * gain, s16 brad, rounded half up in magnitude, saturating.
-[[gnu::noinline]] constexpr int16_t angle_from_count(uint16_t adc_q4_count,
-                                                     const hal::AngleCalibration& calibration) {
-    const bool above = adc_q4_count >= calibration.zero_q4_count;
-    const uint16_t offset = sub_wrap(adc_q4_count, calibration.zero_q4_count);
-    const uint16_t away = above ? offset : neg_wrap(offset);
+constexpr int16_t angle_from_count(uint16_t adc_q4_count,
+                                   const hal::AngleCalibration& calibration) {
+    const int32_t away_q4_count =
+        sub_wrap(widen_s32(adc_q4_count), widen_s32(calibration.zero_q4_count));
+    const bool below = away_q4_count < 0;
+    const uint16_t offset = narrow_wrap_u16(away_q4_count);
+    const uint16_t distance = below ? neg_wrap(offset) : offset;
     const uint16_t scaled = narrow_wrap_u16(
-        shift_floor<16>(add_wrap(mul_wide(away, calibration.gain_q16), uint32_t{0x8000})));
-    const int16_t magnitude = narrow_sat_s16(scaled);
-    return above != calibration.inverted ? magnitude : neg_wrap(magnitude);
+        shift_floor<16>(add_wrap(mul_wide(distance, calibration.gain_q16), uint32_t{0x8000})));
+    const int16_t wrapped = narrow_wrap_s16(scaled);
+    const int16_t magnitude = wrapped < 0 ? kMaxOf<int16_t> : wrapped;
+    return below != calibration.inverted ? neg_wrap(magnitude) : magnitude;
 }
 
 /// Watches for sensors that never change while the others do.
@@ -93,44 +97,39 @@ struct StuckWatch {
     watch.stuck = stuck;
 }
 
-/// A channel that gives no angle: it is absent, or that is a fault.
+/// Channels that repeat what they said when they were found stuck.
+[[gnu::noinline]] constexpr uint8_t still_stuck(const StuckWatch& watch,
+                                                const hal::RawInputs& inputs) {
+    uint8_t stuck = 0;
+    for (uint8_t i = hal::kAngleChannelCount; i != 0;) {
+        --i;
+        stuck = shift_left_wrap<1>(stuck);
+        if (inputs.adc_q4_count[i] == watch.last_q4_count[i]) stuck = bit_or(stuck, uint8_t{1});
+    }
+    return bit_and(stuck, watch.stuck);
+}
+
+/// Rails and absence are the counts from -16 to 0, modulo 2^16.
+constexpr bool is_no_angle(uint16_t q4_count) {
+    static_assert(hal::kAdcMaxQ4Count == 65536 - 16);
+    return add_wrap(q4_count, uint16_t{16}) <= 16;
+}
+
+/// A channel gives no angle, which is a fault unless it is absent.
 [[gnu::noinline]] constexpr void refuse_angle(Angles& angles, uint16_t q4_count, uint8_t bit) {
     angles.valid = bit_xor(angles.valid, bit);
     if (q4_count <= hal::kAdcMaxQ4Count) angles.faults = bit_or(angles.faults, bit);
 }
 
-/// Channels that repeat what they said when they were found stuck.
-[[gnu::noinline]] constexpr void refuse_stuck(const StuckWatch& watch, const hal::RawInputs& inputs,
-                                              Angles& angles) {
-    uint8_t bit = 1;
-    for (uint8_t i = 0; i < hal::kAngleChannelCount; ++i) {
-        const uint16_t q4_count = inputs.adc_q4_count[i];
-        const bool stuck = bit_and(bit_and(watch.stuck, angles.valid), bit) != 0;
-        if (stuck && q4_count == watch.last_q4_count[i]) refuse_angle(angles, q4_count, bit);
-        bit = shift_left_wrap<1>(bit);
+/// The angle of a channel; 0, and not valid, if it is at a rail, absent, uncalibrated or stuck.
+[[gnu::noinline]] constexpr int16_t read_angle(Angles& angles, uint16_t q4_count,
+                                               const hal::AngleCalibration& calibration,
+                                               uint8_t bit) {
+    if (is_no_angle(q4_count) || calibration.gain_q16 == 0 || bit_and(angles.stuck, bit) != 0) {
+        refuse_angle(angles, q4_count, bit);
+        return 0;
     }
-}
-
-/// Is a channel there, calibrated, and off its rails? Else it is refused.
-template <hal::AngleChannel kChannel>
-constexpr void judge_angle(const hal::RawInputs& inputs, const hal::Calibration& calibration,
-                           Angles& angles) {
-    constexpr uint8_t kIndex = static_cast<uint8_t>(kChannel);
-    const uint16_t q4_count = inputs.adc_q4_count[kIndex];
-    // Rails and absence are the counts from -16 to 0, modulo 2^16.
-    const bool no_angle = add_wrap(q4_count, uint16_t{16}) <= 16;
-    if (no_angle || calibration.angle[kIndex].gain_q16 == 0) {
-        refuse_angle(angles, q4_count, channel_bit(kChannel));
-    }
-}
-static_assert(hal::kAdcMaxQ4Count == 65536 - 16);
-
-template <hal::AngleChannel kChannel>
-constexpr void take_angle(const hal::RawInputs& inputs, const hal::Calibration& calibration,
-                          Angles& angles) {
-    constexpr uint8_t kIndex = static_cast<uint8_t>(kChannel);
-    if (!angles.has(kChannel)) return;
-    angles.brad[kIndex] = angle_from_count(inputs.adc_q4_count[kIndex], calibration.angle[kIndex]);
+    return angle_from_count(q4_count, calibration);
 }
 
 /// Angles of this step; a channel that is absent, at a rail, uncalibrated or stuck is not valid.
@@ -139,19 +138,20 @@ constexpr void take_angle(const hal::RawInputs& inputs, const hal::Calibration& 
                                              const hal::Calibration& calibration,
                                              const StuckWatch& watch, Angles& angles) {
     using enum hal::AngleChannel;
-    angles = Angles{};
+    const uint16_t* const count = inputs.adc_q4_count;
+    const hal::AngleCalibration* const by = calibration.angle;
     angles.valid = kAllAngles;
-    judge_angle<bogie_left>(inputs, calibration, angles);
-    judge_angle<bogie_right>(inputs, calibration, angles);
-    judge_angle<differential>(inputs, calibration, angles);
-    judge_angle<pitch>(inputs, calibration, angles);
-    judge_angle<roll>(inputs, calibration, angles);
-    if (watch.stuck != 0) refuse_stuck(watch, inputs, angles);
-    take_angle<bogie_left>(inputs, calibration, angles);
-    if (!angles.has(bogie_left)) take_angle<bogie_right>(inputs, calibration, angles);
-    take_angle<differential>(inputs, calibration, angles);
-    take_angle<pitch>(inputs, calibration, angles);
-    take_angle<roll>(inputs, calibration, angles);
+    angles.faults = 0;
+    angles.stuck = watch.stuck == 0 ? uint8_t{0} : still_stuck(watch, inputs);
+    angles.brad[0] = read_angle(angles, count[0], by[0], channel_bit(bogie_left));
+    angles.brad[1] = 0;
+    const bool right_is_stuck = bit_and(angles.stuck, channel_bit(bogie_right)) != 0;
+    if (!angles.has(bogie_left) || is_no_angle(count[1]) || by[1].gain_q16 == 0 || right_is_stuck) {
+        angles.brad[1] = read_angle(angles, count[1], by[1], channel_bit(bogie_right));
+    }
+    angles.brad[2] = read_angle(angles, count[2], by[2], channel_bit(differential));
+    angles.brad[3] = read_angle(angles, count[3], by[3], channel_bit(pitch));
+    angles.brad[4] = read_angle(angles, count[4], by[4], channel_bit(roll));
 }
 
 }  // namespace rover

@@ -32,13 +32,13 @@ static_assert(vehicle::kRockerQ6Bin == 3 * vehicle::kBogieArmQ6Bin);
 /// x + (x + y) / 2, s16 Q14, rounded down.
 /// @param rocker_q14, bogie_q14  [-16383, 16383], so that nothing overflows
 constexpr int16_t arms_q14(int16_t rocker_q14, int16_t bogie_q14) {
-    return add_wrap(rocker_q14, average(rocker_q14, bogie_q14));
+    return add_wrap(rocker_q14, halve_floor(add_wrap(rocker_q14, bogie_q14)));
 }
 /// Twice a bogie's arm times a ratio, s16 Q4 mm, rounded half up.
 constexpr int16_t arms_q4_mm(int16_t arms_q14) {
     static_assert(2ul * vehicle::kBogieArmQ4Mm * 512 == 125ul * 16384);
     const int16_t twice = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{125}, arms_q14)));
-    return average(twice, int16_t{1});
+    return halve_floor(add_wrap(twice, int16_t{1}));
 }
 /// The same in 1/64 bin; what lies behind counts as 0.
 constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
@@ -48,12 +48,12 @@ constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
 }
 
 /// Pose of the left side; of the right one when the left bogie's potentiometer is not valid.
-/// Distances are left out: see add_distances().
+/// Distances are left as they are: see add_distances().
 [[gnu::noinline]] constexpr void linkage_pose(const Angles& angles, LinkagePose& pose) {
     using enum hal::AngleChannel;
-    pose = LinkagePose{};
     const bool left = angles.has(bogie_left);
     if (!angles.has(pitch) || !angles.has(differential) || (!left && !angles.has(bogie_right))) {
+        pose = LinkagePose{};
         return;
     }
     pose.side = left ? Side::left : Side::right;
@@ -68,8 +68,8 @@ constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
 }
 
 /// The distances of a pose: only a slip-and-sinkage cycle needs them.
+/// @param pose  of a side
 constexpr void add_distances(LinkagePose& pose) {
-    if (pose.side == Side::none) return;
     const int16_t rocker_q14 = cosine_q14(pose.rocker_brad);
     const int16_t bogie_q14 = cosine_q14(pose.bogie_brad);
     pose.middle_distance_q6_bin = arms_q6_bin(arms_q14(rocker_q14, neg_wrap(bogie_q14)));
@@ -80,7 +80,7 @@ constexpr void add_distances(LinkagePose& pose) {
 constexpr LinkagePose linkage_pose(const Angles& angles) {
     LinkagePose pose;
     linkage_pose(angles, pose);
-    add_distances(pose);
+    if (pose.side != Side::none) add_distances(pose);
     return pose;
 }
 

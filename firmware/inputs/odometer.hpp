@@ -201,7 +201,8 @@ constexpr bool side_pulses(Odometer& odometer, const hal::RawInputs& inputs, boo
 [[gnu::noinline]] constexpr void odometer_step(Odometer& odometer, const hal::RawInputs& inputs,
                                                const hal::Calibration& calibration,
                                                OdometerStep& step) {
-    step = OdometerStep{};
+    step.travel_q4_mm = 0;
+    step.moving = false;
     if (!odometer.started) start_odometer(odometer, inputs);
     int16_t left = 0;
     int16_t right = 0;

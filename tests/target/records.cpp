@@ -142,6 +142,7 @@ Record record_of(const rover::Controller& controller) {
     record.field("angles.brad", controller.angles.brad);
     record.field("angles.valid", controller.angles.valid);
     record.field("angles.faults", controller.angles.faults);
+    record.field("angles.stuck", controller.angles.stuck);
     add(record, controller.odometer);
     record.field("scan.last_scan_count", controller.scan.last_scan_count);
     record.field("scan.age_steps", controller.scan.age_steps);
