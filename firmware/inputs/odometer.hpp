@@ -23,11 +23,11 @@ struct Odometer {
     uint16_t side_count[kSideStep] = {};         ///< minus its place, left and right
     uint8_t lead_count[hal::kWheelCount] = {};   ///< ahead of its side, modulo 2^8
     int16_t drift_count[hal::kWheelCount] = {};  ///< taken out of the lead in this cycle
-    bool started = false;
-    uint16_t rest_q20_mm = 0;       ///< travel not yet in the total, below 1/16 mm
-    uint16_t turn_rest_q20_mm = 0;  ///< the same of turn
-    int32_t travel_q4_mm = 0;       ///< mean rim travel of both sides since reset
-    int16_t turn_q4_mm = 0;         ///< half the difference of the sides since the last cycle
+    uint8_t present = 0;                         ///< wheels of the last step
+    uint16_t rest_q20_mm = 0;                    ///< travel not yet in the total, below 1/16 mm
+    uint16_t turn_rest_q20_mm = 0;               ///< the same of turn
+    int32_t travel_q4_mm = 0;                    ///< mean rim travel of both sides since reset
+    int16_t turn_q4_mm = 0;  ///< half the difference of the sides since the last cycle
 };
 
 /// What one step added.
@@ -52,6 +52,31 @@ constexpr uint16_t ahead_of_side(const Odometer& odometer, const hal::RawInputs&
                     odometer.side_count[side]);
 }
 
+/// Puts wheels where their sides stand: those that have just come.
+/// @param come  bit w: wheel w
+[[gnu::noinline]] constexpr void place_wheels(Odometer& odometer, const hal::RawInputs& inputs,
+                                              uint8_t come) {
+    for (uint8_t wheel = 0; wheel < hal::kWheelCount; ++wheel) {
+        if (bit_and(come, uint8_t{1}) != 0) {
+            odometer.offset_count[wheel] =
+                sub_wrap(odometer.offset_count[wheel], ahead_of_side(odometer, inputs, wheel));
+            odometer.lead_count[wheel] = 0;
+            odometer.drift_count[wheel] = 0;
+        }
+        come = shift_floor<1>(come);
+    }
+}
+
+/// Gives a present wheel a lead; what it is ahead beyond that is drift.
+[[gnu::noinline]] constexpr void set_lead(Odometer& odometer, uint8_t wheel, int16_t ahead,
+                                          int16_t lead) {
+    odometer.lead_count[wheel] = narrow_wrap_u8(lead);
+    const int16_t drift = sub_wrap(ahead, lead);
+    if (drift == 0) return;
+    odometer.offset_count[wheel] = sub_wrap(odometer.offset_count[wheel], narrow_wrap_u16(drift));
+    odometer.drift_count[wheel] = add_sat(odometer.drift_count[wheel], drift);
+}
+
 /// A side in general: any wheels present, any numbers of pulses. Three: their middle one. Two:
 /// their mean, rounded down; the odd pulse stays with the first. One: that wheel. A wheel ahead by
 /// more than kTachStepMaxCount has been upset, not driven: it stands where its side stood.
@@ -62,50 +87,50 @@ constexpr uint16_t ahead_of_side(const Odometer& odometer, const hal::RawInputs&
 [[gnu::noinline]] constexpr uint8_t side_in_general(Odometer& odometer,
                                                     const hal::RawInputs& inputs, uint8_t first,
                                                     bool& moving, int16_t& pulses) {
-    int16_t ahead[3] = {};
+    int16_t ahead[hal::kWheelCount];
     uint8_t count = 0;
     int16_t middle = 0;
-    uint8_t here = shift_floor(inputs.tach_present, first);
-    for (uint8_t i = 0, wheel = first; i < 3; ++i, wheel += kSideStep) {
-        const bool present = bit_and(here, uint8_t{1}) != 0;
-        here = shift_floor<kSideStep>(here);
-        if (!present) continue;
-        const uint16_t by = ahead_of_side(odometer, inputs, wheel);
-        if (abs_u16(narrow_wrap_s16(by)) > kTachStepMaxCount) {
-            odometer.offset_count[wheel] = sub_wrap(odometer.offset_count[wheel], by);
-        } else {
-            ahead[i] = narrow_wrap_s16(by);
-            if (ahead[i] != narrow_wrap_s8(odometer.lead_count[wheel])) moving = true;
+    const uint8_t front_bit = add_wrap(first, uint8_t{1});
+    uint8_t bit = front_bit;
+    for (uint8_t wheel = first; wheel < hal::kWheelCount; wheel += kSideStep) {
+        if (bit_and(inputs.tach_present, bit) != 0) {
+            const uint16_t by = ahead_of_side(odometer, inputs, wheel);
+            int16_t here = narrow_wrap_s16(by);
+            if (abs_u16(here) > kTachStepMaxCount) {
+                odometer.offset_count[wheel] = sub_wrap(odometer.offset_count[wheel], by);
+                here = 0;
+            } else if (here != narrow_wrap_s8(odometer.lead_count[wheel])) {
+                moving = true;
+            }
+            ahead[wheel] = here;
+            middle = add_wrap(middle, here);
+            ++count;
         }
-        middle = add_wrap(middle, ahead[i]);
-        ++count;
+        bit = shift_left_wrap<kSideStep>(bit);
     }
+    if (count == 0) return count;
     int16_t odd_pulse = 0;
-    if (count == 3) middle = median3(ahead[0], ahead[1], ahead[2]);
+    if (count == 3) middle = median3(ahead[first], ahead[first + 2], ahead[first + 4]);
     if (count == 2) {
         odd_pulse = bit_and(narrow_wrap_u8(middle), uint8_t{1});
         middle = halve_floor(middle);
     }
+    pulses = middle;
     odometer.side_count[first] = sub_wrap(odometer.side_count[first], narrow_wrap_u16(middle));
-    here = shift_floor(inputs.tach_present, first);
+    bit = front_bit;
     for (uint8_t wheel = first; wheel < hal::kWheelCount; wheel += kSideStep) {
-        const int16_t rest = narrow_wrap_s16(ahead_of_side(odometer, inputs, wheel));
-        int16_t lead = 0;
-        int16_t drift = 0;
-        if (bit_and(here, uint8_t{1}) != 0) {
-            lead = count == 2
-                       ? odd_pulse
-                       : clamp(rest, static_cast<int16_t>(-kTachLeadMaxCount), kTachLeadMaxCount);
-            odd_pulse = 0;
-            drift = sub_wrap(rest, lead);
+        if (bit_and(inputs.tach_present, bit) != 0) {
+            const int16_t rest = sub_wrap(ahead[wheel], middle);
+            if (count == 2) {
+                set_lead(odometer, wheel, rest, odd_pulse);
+                odd_pulse = 0;
+            } else {
+                set_lead(odometer, wheel, rest,
+                         clamp(rest, static_cast<int16_t>(-kTachLeadMaxCount), kTachLeadMaxCount));
+            }
         }
-        here = shift_floor<kSideStep>(here);
-        odometer.offset_count[wheel] =
-            sub_wrap(odometer.offset_count[wheel], narrow_wrap_u16(sub_wrap(rest, lead)));
-        odometer.drift_count[wheel] = add_sat(odometer.drift_count[wheel], drift);
-        odometer.lead_count[wheel] = narrow_wrap_u8(lead);
+        bit = shift_left_wrap<kSideStep>(bit);
     }
-    if (count != 0) pulses = middle;
     return count;
 }
 
@@ -124,6 +149,8 @@ constexpr bool side_in_bytes(Odometer& odometer, const hal::RawInputs& inputs, b
                              int16_t& pulses) {
     constexpr uint8_t kMiddle = kFirst + kSideStep;
     constexpr uint8_t kRear = kMiddle + kSideStep;
+    constexpr uint8_t kAll = 0x15 << kFirst;
+    if (bit_and(inputs.tach_present, kAll) != kAll) return false;
     constexpr uint8_t kZero = 128;  // makes a small number of either sign a byte
     const uint16_t from = add_wrap(odometer.side_count[kFirst], uint16_t{kZero});
     const uint16_t front =
@@ -171,39 +198,32 @@ constexpr int16_t take_whole(int32_t travel_q20_mm, uint16_t& rest_q20_mm) {
     return narrow_wrap_s16(narrow_wrap_u16(shift_floor<16>(sum)));
 }
 
-/// The first call: every wheel stands where its side stands.
-[[gnu::noinline]] constexpr void start_odometer(Odometer& odometer, const hal::RawInputs& inputs) {
-    odometer.started = true;
-    for (uint8_t wheel = 0; wheel < hal::kWheelCount; ++wheel) {
-        odometer.offset_count[wheel] = neg_wrap(inputs.tach_count[wheel]);
-    }
-}
-
 /// Pulses of both sides; one without tachometers follows the other.
 /// @return  false: no wheel is present
 constexpr bool side_pulses(Odometer& odometer, const hal::RawInputs& inputs, bool& moving,
                            int16_t& left, int16_t& right) {
-    const bool all = bit_and(inputs.tach_present, uint8_t{0x3F}) == 0x3F;
     bool has_left = true;
     bool has_right = true;
-    if (!all || !side_in_bytes<0>(odometer, inputs, moving, left)) {
-        has_left = side_in_general(odometer, inputs, 0, moving, left);
+    if (!side_in_bytes<0>(odometer, inputs, moving, left)) {
+        has_left = side_in_general(odometer, inputs, 0, moving, left) != 0;
     }
-    if (!all || !side_in_bytes<1>(odometer, inputs, moving, right)) {
-        has_right = side_in_general(odometer, inputs, 1, moving, right);
+    if (!side_in_bytes<1>(odometer, inputs, moving, right)) {
+        has_right = side_in_general(odometer, inputs, 1, moving, right) != 0;
     }
     if (!has_left) left = right;
     if (!has_right) right = left;
     return has_left || has_right;
 }
 
-/// One control step. The first call only remembers the counters.
+/// One control step. The first one with a wheel only remembers its counter.
 [[gnu::noinline]] constexpr void odometer_step(Odometer& odometer, const hal::RawInputs& inputs,
                                                const hal::Calibration& calibration,
                                                OdometerStep& step) {
     step.travel_q4_mm = 0;
     step.moving = false;
-    if (!odometer.started) start_odometer(odometer, inputs);
+    const uint8_t come = bit_and(inputs.tach_present, bit_xor(odometer.present, uint8_t{0xFF}));
+    odometer.present = inputs.tach_present;
+    if (come != 0) place_wheels(odometer, inputs, come);
     int16_t left = 0;
     int16_t right = 0;
     step.valid = side_pulses(odometer, inputs, step.moving, left, right);

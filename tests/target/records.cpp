@@ -47,7 +47,7 @@ void add(Record& record, const rover::Odometer& value) {
     record.field("odometer.side_count", value.side_count);
     record.field("odometer.lead_count", value.lead_count);
     record.field("odometer.drift_count", value.drift_count);
-    record.field("odometer.started", value.started);
+    record.field("odometer.present", value.present);
     record.field("odometer.rest_q20_mm", value.rest_q20_mm);
     record.field("odometer.turn_rest_q20_mm", value.turn_rest_q20_mm);
     record.field("odometer.travel_q4_mm", value.travel_q4_mm);
