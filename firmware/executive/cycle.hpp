@@ -36,18 +36,25 @@ constexpr bool can_look_ahead(const LinkagePose& pose, bool scan_fresh) {
                                                 const hal::RawInputs& inputs,
                                                 const LinkagePose& pose, int16_t pitch_brad,
                                                 MapGridInput& input) {
-    const LookAhead view = look_ahead(pose, pitch_brad);
+    LookAhead view;
+    look_ahead(pose, pitch_brad, view);
+    uint8_t present = inputs.range_present;
+    uint8_t seen = 0;
     for (uint8_t i = 0; i < vehicle::kLookAheadCount; ++i) {
-        if (bit_and(shift_floor(inputs.range_present, i), uint8_t{1}) == 0) continue;
-        const int16_t range_q1_mm =
-            sub_sat(inputs.range_q1_mm[i], controller.calibration.range_offset_q1_mm);
-        GroundPoint point;
-        ground_point(view, i, range_q1_mm, controller.calibration.wheel_radius_q4_mm, point);
-        input.ahead_height_q4_mm[input.ahead_count] = point.height_q4_mm;
-        input.ahead_distance_q6_bin[input.ahead_count] = point.distance_q6_bin;
-        ++input.ahead_count;
-        controller.estimates.height_ahead_q4_mm[i] = point.height_q4_mm;
+        if (bit_and(present, uint8_t{1}) != 0) {
+            GroundPoint point;
+            ground_point(view,
+                         sub_sat(inputs.range_q1_mm[i], controller.calibration.range_offset_q1_mm),
+                         controller.calibration.wheel_radius_q4_mm, point);
+            input.ahead_height_q4_mm[seen] = point.height_q4_mm;
+            input.ahead_distance_q6_bin[seen] = point.distance_q6_bin;
+            ++seen;
+            controller.estimates.height_ahead_q4_mm[i] = point.height_q4_mm;
+        }
+        present = shift_floor<1>(present);
+        look_further(view);
     }
+    input.ahead_count = seen;
 }
 
 /// Rim travel since the last cycle in 1/64 bin, rounded down; the remainder is carried to the next.

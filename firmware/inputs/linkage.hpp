@@ -97,67 +97,71 @@ struct GroundPoint {
 
 inline constexpr int16_t kBinPerMmQ15 = 20972;  ///< 16/25: 1/256 bin in 1/16 mm
 
-/// What every range sample of a scan shares: the body pivot, and the body's direction.
+/// What every range sample of a scan shares: the body's direction; and a place that goes from
+/// sample to sample, at axle height, from the rear contact's axle on.
 struct LookAhead {
-    int16_t pivot_up_q4_mm = 0;      ///< above the rear contact's axle
-    int16_t pivot_along_q8_bin = 0;  ///< ahead of it
-    int16_t sine_q14 = 0;            ///< of the pitch
-    int16_t cosine_q14 = 0;
+    int16_t up_q4_mm = 0;
+    int16_t along_q8_bin = 0;
+    int16_t step_up_q4_mm = 0;  ///< from one sample to the next
+    int16_t step_along_q8_bin = 0;
+    int16_t versine_q14 = 0;   ///< 1 less the cosine of the pitch
     int16_t sine_q14_bin = 0;  ///< of the pitch, times 16/25: 1/16 mm are so many 1/256 bin
 };
 
-// The body pivot is half way along the rocker, and z(1) + z(2) is twice the rocker's height.
+// The body pivot is half way along the rocker, and z(1) + z(2) is twice the rocker's height. From
+// it the first sample is 412.5 mm, 33/2 bins, the second another 200 mm, 8 bins.
 static_assert(2 * vehicle::kBodyReferenceQ4Mm == vehicle::kRockerQ4Mm);
+static_assert(vehicle::kLookAheadCount == 2 && vehicle::kLookAheadQ4Mm[0] == 6600 &&
+              vehicle::kLookAheadQ4Mm[1] - vehicle::kLookAheadQ4Mm[0] == 3200);
 
+/// The view to the first sample.
 /// @param pose  with distances
 /// @param pitch_brad  [-1/4, 1/4] turn
-constexpr LookAhead look_ahead(const LinkagePose& pose, int16_t pitch_brad) {
-    LookAhead view;
-    view.pivot_up_q4_mm =
+constexpr void look_ahead(const LinkagePose& pose, int16_t pitch_brad, LookAhead& view) {
+    const int16_t sine = sine_q14(pitch_brad);
+    const int16_t cosine = cosine_q14(pitch_brad);
+    // 6600 in Q14 is 103 and 1/8 in Q8. 5/4 make up for the terms that are rounded down.
+    const int32_t first_up_q12_mm = add_wrap(mul_wide(uint8_t{103}, sine), int32_t{0x140});
+    const int16_t pivot_up_q4_mm =
         shift_floor<2>(add_wrap(pose.middle_height_q4_mm, pose.front_height_q4_mm));
-    view.pivot_along_q8_bin =
-        narrow_wrap_s16(add_wrap(pose.middle_distance_q6_bin, pose.front_distance_q6_bin));
-    view.sine_q14 = sine_q14(pitch_brad);
-    view.cosine_q14 = cosine_q14(pitch_brad);
-    view.sine_q14_bin = mul_upper(shift_left_wrap<1>(view.sine_q14), kBinPerMmQ15);
-    return view;
+    view.up_q4_mm =
+        add_wrap(add_wrap(pivot_up_q4_mm, narrow_wrap_s16(shift_floor<8>(first_up_q12_mm))),
+                 shift_floor<11>(sine));
+    view.step_up_q4_mm = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{50}, sine)));
+    const uint16_t pivot_along_q8_bin =
+        add_wrap(pose.middle_distance_q6_bin, pose.front_distance_q6_bin);
+    view.along_q8_bin = add_wrap(narrow_wrap_s16(pivot_along_q8_bin),
+                                 narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{66}, cosine))));
+    view.step_along_q8_bin = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{32}, cosine)));
+    view.versine_q14 = sub_wrap(int16_t{16384}, cosine);
+    view.sine_q14_bin = mul_upper(shift_left_wrap<1>(sine), kBinPerMmQ15);
 }
 
-/// How far ahead the samples look: in units of 4 mm, less half a millimetre, and in bins.
-inline constexpr uint8_t kAheadQ4Mm64[vehicle::kLookAheadCount] = {103, 153};
-inline constexpr uint8_t kAheadQ8Bin64[vehicle::kLookAheadCount] = {66, 98};
-static_assert(vehicle::kLookAheadQ4Mm[0] == 64 * kAheadQ4Mm64[0] + 8 &&
-              vehicle::kLookAheadQ4Mm[1] == 64 * kAheadQ4Mm64[1] + 8);
-static_assert(vehicle::kLookAheadQ4Mm[0] * 16l == 25l * 64 * kAheadQ8Bin64[0] &&
-              vehicle::kLookAheadQ4Mm[1] * 16l == 25l * 64 * kAheadQ8Bin64[1]);
+/// On to the next sample.
+constexpr void look_further(LookAhead& view) {
+    view.up_q4_mm = add_wrap(view.up_q4_mm, view.step_up_q4_mm);
+    view.along_q8_bin = add_wrap(view.along_q8_bin, view.step_along_q8_bin);
+}
 
 inline constexpr int16_t kRangeMaxQ1Mm = 800;     ///< 400 mm up or down: beyond is taken as this
 inline constexpr uint16_t kRadiusMaxQ4Mm = 1600;  ///< 100 mm
 
-/// Range sample `index` turned from the body frame into the frame of the rear contact.
+/// A range sample turned from the body frame into the frame of the rear contact.
 /// @param range_q1_mm       s16 Q1 mm, offset already taken off; level ground reads 0
 /// @param wheel_radius_q4_mm  the sensor's zero is one wheel radius below axle height
-[[gnu::noinline]] constexpr void ground_point(const LookAhead& view, uint8_t index,
-                                              int16_t range_q1_mm, uint16_t wheel_radius_q4_mm,
-                                              GroundPoint& point) {
+[[gnu::noinline]] constexpr void ground_point(const LookAhead& view, int16_t range_q1_mm,
+                                              uint16_t wheel_radius_q4_mm, GroundPoint& point) {
     const int16_t radius_q4_mm = narrow_wrap_s16(min(wheel_radius_q4_mm, kRadiusMaxQ4Mm));
-    const int16_t range_q6_mm =
-        shift_left_wrap<5>(clamp(range_q1_mm, static_cast<int16_t>(-kRangeMaxQ1Mm), kRangeMaxQ1Mm));
-    const int16_t below_q6_mm = sub_wrap(range_q6_mm, shift_left_wrap<2>(radius_q4_mm));
-    // Half up, and one more for the two terms that are rounded down.
-    const int32_t ahead_up_q12_mm =
-        add_wrap(mul_wide(kAheadQ4Mm64[index], view.sine_q14), int32_t{0x180});
-    const int16_t rest_up_q4_mm = shift_floor<11>(view.sine_q14);
-    const int16_t up_q4_mm =
-        add_wrap(add_wrap(narrow_wrap_s16(shift_floor<8>(ahead_up_q12_mm)), rest_up_q4_mm),
-                 mul_upper(below_q6_mm, view.cosine_q14));
-    point.height_q4_mm = add_wrap(add_wrap(view.pivot_up_q4_mm, up_q4_mm), radius_q4_mm);
-    const int16_t ahead_q8_bin =
-        narrow_wrap_s16(shift_floor<8>(mul_wide(kAheadQ8Bin64[index], view.cosine_q14)));
-    const int16_t along_q8_bin = add_wrap(
-        sub_wrap(ahead_q8_bin, mul_upper(below_q6_mm, view.sine_q14_bin)), view.pivot_along_q8_bin);
+    const int16_t range_q4_mm =
+        shift_left_wrap<3>(clamp(range_q1_mm, static_cast<int16_t>(-kRangeMaxQ1Mm), kRangeMaxQ1Mm));
+    const int16_t below_q6_mm = shift_left_wrap<2>(sub_wrap(range_q4_mm, radius_q4_mm));
+    // below * cosine + radius = range - below * versine
+    point.height_q4_mm =
+        sub_wrap(add_wrap(view.up_q4_mm, range_q4_mm), mul_upper(view.versine_q14, below_q6_mm));
+    const int16_t along_q8_bin =
+        sub_wrap(view.along_q8_bin, mul_upper(view.sine_q14_bin, below_q6_mm));
     point.distance_q6_bin =
-        along_q8_bin < 0 ? uint16_t{0} : narrow_wrap_u16(shift_round_half_up<2>(along_q8_bin));
+        narrow_sat_u16(halve_floor(halve_floor(add_wrap(along_q8_bin, int16_t{2}))));
 }
 static_assert(32l * kRangeMaxQ1Mm + 4l * kRadiusMaxQ4Mm < 32768, "below_q6_mm");
 

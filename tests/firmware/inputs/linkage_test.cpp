@@ -125,9 +125,11 @@ rover::GroundPoint ground_point(std::int16_t rocker_brad, std::int16_t pitch_bra
                                 std::uint8_t index, int range_q1_mm) {
     const auto differential = static_cast<std::int16_t>(rocker_brad - pitch_brad);
     const auto pose = rover::linkage_pose(angles(0, 0, differential, pitch_brad));
+    rover::LookAhead view;
+    rover::look_ahead(pose, pitch_brad, view);
+    for (; index != 0; --index) rover::look_further(view);
     rover::GroundPoint point;
-    rover::ground_point(rover::look_ahead(pose, pitch_brad), index,
-                        static_cast<std::int16_t>(range_q1_mm), 1040, point);
+    rover::ground_point(view, static_cast<std::int16_t>(range_q1_mm), 1040, point);
     return point;
 }
 
