@@ -36,17 +36,16 @@ constexpr void controller_step(Controller& controller, const hal::RawInputs& inp
     if (abs_u16(travel.travel_q4_mm) > uint16_t{kCycleTravelQ4Mm}) {
         set_event(estimates, kEventOverspeed);
     }
-    const bool scan_fresh = watch_scan(controller.scan, inputs);
-    if (can_look_ahead(pose, scan_fresh)) set_available(estimates, kAvailableLookAhead);
-    if (controller.scan.seen && controller.scan.age_steps >= kScanStaleSteps) {
-        set_fault(estimates, kFaultRangeStale);
-    }
+    // Samples lie ahead of the left wheels.
+    const bool looks_ahead = watch_scan(controller.scan, inputs) && pose.side == Side::left;
+    if (looks_ahead) set_available(estimates, kAvailableLookAhead);
+    if (controller.scan.age_steps == kScanStaleSteps) set_fault(estimates, kFaultRangeStale);
     report_attitude(estimates, angles, pose);
     CycleMotion motion = CycleMotion::moved;
     const bool due =
         moved_at_rest(controller, pose, travel.moving) || cycle_due(controller, motion);
     if (due) {
-        run_cycle(controller, inputs, pose, angles[hal::AngleChannel::pitch], scan_fresh, motion);
+        run_cycle(controller, inputs, pose, angles[hal::AngleChannel::pitch], looks_ahead, motion);
     }
     if (due || first) report_cycle(controller);
     estimates.faults = bit_or(estimates.faults, controller.sensor_faults);

@@ -13,11 +13,12 @@
 
 namespace rover {
 
+inline constexpr uint8_t kNoScanYet = 255;
+
 /// Range scans as they arrive.
 struct ScanWatch {
     uint8_t last_scan_count = 0;
-    uint8_t age_steps = kScanStaleSteps;  ///< since the last new scan, saturating at the limit
-    bool seen = false;                    ///< a scan has ever arrived
+    uint8_t age_steps = kNoScanYet;  ///< since the last new scan, up to kScanStaleSteps
 };
 
 inline constexpr uint16_t kNoSlipShareQ15 = 32768;
@@ -47,7 +48,7 @@ struct Controller {
 /// Turns a controller whose bytes are all 0 into Controller{}: an image then needs no copy of it.
 constexpr void set_initial_values(Controller& controller) {
     controller.calibration = hal::Calibration{};
-    controller.scan.age_steps = kScanStaleSteps;
+    controller.scan.age_steps = kNoScanYet;
     controller.map.mean_q12_bin = slip::kMeanNoSlipQ12Bin;
     controller.map.rough_q8_mm = slip::kInitialRoughQ8Mm;
     controller.map.match_cost_q10 = slip::kInitialCostQ10;

@@ -15,20 +15,14 @@ inline constexpr uint8_t kLookAheadBits = (1u << vehicle::kLookAheadCount) - 1u;
 /// Counts scans; true while the last one is fresh enough to use.
 constexpr bool watch_scan(ScanWatch& scan, const hal::RawInputs& inputs) {
     const bool present = bit_and(inputs.range_present, kLookAheadBits) != 0;
-    const bool is_new = present && (!scan.seen || inputs.range_scan_count != scan.last_scan_count);
-    if (is_new) {
-        scan.seen = true;
+    const bool is_new = inputs.range_scan_count != scan.last_scan_count;
+    scan.last_scan_count = inputs.range_scan_count;
+    if (present && (is_new || scan.age_steps == kNoScanYet)) {
         scan.age_steps = 0;
     } else if (scan.age_steps < kScanStaleSteps) {
         ++scan.age_steps;
     }
-    scan.last_scan_count = inputs.range_scan_count;
-    return present && scan.seen && scan.age_steps <= kScanFreshSteps;
-}
-
-/// Can look-ahead samples be joined to this pose? They lie ahead of the left wheels.
-constexpr bool can_look_ahead(const LinkagePose& pose, bool scan_fresh) {
-    return scan_fresh && pose.side == Side::left;
+    return present && scan.age_steps <= kScanFreshSteps;
 }
 
 /// Fills in the look-ahead part of a cycle's input and of the estimates.
@@ -98,10 +92,8 @@ constexpr bool cycle_due(const Controller& controller, CycleMotion& motion) {
 /// cycles come every 60.0 mm on average; after a step of more than a whole cycle, and in every
 /// other motion, from here.
 constexpr void schedule_next(Controller& controller, CycleMotion motion) {
-    int16_t past_due_q4_mm = -kCycleTravelQ4Mm;
-    if (motion == CycleMotion::forward && controller.past_due_q4_mm < kCycleTravelQ4Mm) {
-        past_due_q4_mm = sub_wrap(controller.past_due_q4_mm, kCycleTravelQ4Mm);
-    }
+    int16_t past_due_q4_mm = sub_wrap(controller.past_due_q4_mm, kCycleTravelQ4Mm);
+    if (motion != CycleMotion::forward || past_due_q4_mm >= 0) past_due_q4_mm = -kCycleTravelQ4Mm;
     controller.past_due_q4_mm = past_due_q4_mm;
     controller.odometer.turn_q4_mm = 0;
 }
@@ -148,8 +140,9 @@ constexpr int16_t forward_odometer(Controller& controller, int16_t odometer_q6_b
 }
 
 /// Runs one slip-and-sinkage cycle.
+/// @param looks_ahead  the samples can be joined to the pose: fresh, and ahead of the left wheels
 [[gnu::noinline]] constexpr void run_cycle(Controller& controller, const hal::RawInputs& inputs,
-                                           LinkagePose& pose, int16_t pitch_brad, bool scan_fresh,
+                                           LinkagePose& pose, int16_t pitch_brad, bool looks_ahead,
                                            CycleMotion motion) {
     Estimates& estimates = controller.estimates;
     MapGridInput input;
@@ -174,7 +167,7 @@ constexpr int16_t forward_odometer(Controller& controller, int16_t odometer_q6_b
         add_distances(pose);
         input.middle_distance_q6_bin = pose.middle_distance_q6_bin;
         input.front_distance_q6_bin = pose.front_distance_q6_bin;
-        if (can_look_ahead(pose, scan_fresh)) {
+        if (looks_ahead) {
             add_look_ahead(controller, inputs, pose, pitch_brad, input);
         }
     }

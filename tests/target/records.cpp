@@ -146,7 +146,6 @@ Record record_of(const rover::Controller& controller) {
     add(record, controller.odometer);
     record.field("scan.last_scan_count", controller.scan.last_scan_count);
     record.field("scan.age_steps", controller.scan.age_steps);
-    record.field("scan.seen", controller.scan.seen);
     add(record, controller.map);
     record.field("started", controller.started);
     record.field("sensor_faults", controller.sensor_faults);

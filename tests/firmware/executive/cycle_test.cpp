@@ -220,7 +220,7 @@ TEST(WatchScan, FreshForThreeStepsAndWrapsItsCounter) {
     EXPECT_FALSE(rover::executive::watch_scan(scan, inputs));
     inputs.range_present = 0b11111100;  // none that this vehicle uses
     EXPECT_FALSE(rover::executive::watch_scan(scan, inputs));
-    EXPECT_FALSE(scan.seen);
+    EXPECT_EQ(scan.age_steps, rover::kNoScanYet);
     inputs.range_present = 0b01;
     inputs.range_scan_count = 255;
     EXPECT_TRUE(rover::executive::watch_scan(scan, inputs));
