@@ -135,6 +135,21 @@ TEST(StuckWatch, AFrozenChannelIsAFaultAfterEightCyclesAndHealsWhenItChanges) {
     EXPECT_EQ(bench.read(), 0);
 }
 
+TEST(StuckWatch, AStuckLeftBogieHandsOverToTheRightOne) {
+    Bench bench;
+    for (std::uint16_t cycle = 0; cycle < 10; ++cycle) {
+        bench.set(AngleChannel::pitch, static_cast<std::uint16_t>(30000 + cycle));
+        bench.set(AngleChannel::bogie_right, static_cast<std::uint16_t>(31000 + cycle));
+        rover::watch_cycle(bench.watch, bench.inputs);
+        bench.read();
+    }
+    EXPECT_FALSE(bench.angles.has(AngleChannel::bogie_left));
+    EXPECT_EQ(bench.angles[AngleChannel::bogie_left], 0);
+    EXPECT_TRUE(bench.angles.has(AngleChannel::bogie_right));
+    EXPECT_EQ(bench.angles[AngleChannel::bogie_right],
+              real_angle_brad(31009, bench.calibration.angle[1]));
+}
+
 TEST(StuckWatch, NothingIsStuckWhileNothingChanges) {
     Bench bench;
     for (int cycle = 0; cycle < 1000; ++cycle) rover::watch_cycle(bench.watch, bench.inputs);
