@@ -26,9 +26,9 @@ constexpr void controller_step(Controller& controller, const hal::RawInputs& inp
     Angles& angles = controller.angles;
     read_angles(inputs, controller.calibration, controller.stuck, angles);
     estimates.faults = bit_or(estimates.faults, widen_u16(angles.faults));
-    LinkagePose pose;
+    LinkagePose& pose = controller.pose;
     linkage_pose(angles, pose);
-    OdometerStep travel;
+    OdometerStep& travel = controller.travel;
     odometer_step(controller.odometer, inputs, controller.calibration, travel);
     controller.since_cycle_q4_mm = add_wrap(controller.since_cycle_q4_mm, travel.travel_q4_mm);
     controller.past_due_q4_mm = add_wrap(controller.past_due_q4_mm, travel.travel_q4_mm);

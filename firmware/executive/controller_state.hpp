@@ -30,6 +30,8 @@ struct Controller {
     Estimates estimates;
     StuckWatch stuck;
     Angles angles;  ///< of this step
+    LinkagePose pose;
+    OdometerStep travel;
     Odometer odometer;
     ScanWatch scan;
     MapGrid map;
