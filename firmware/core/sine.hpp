@@ -1,9 +1,9 @@
 // sine.hpp - sine and cosine of binary angles.
 // Depends on   units.hpp, tables/sine_table.hpp (generated); rover_words.hpp.
-// Bounds       two table reads and one 16 x 8 bit multiplication; no loop.
+// Bounds       two table reads and one 8 x 8 bit multiplication; no loop.
 // Angles       the difference of two angles is sub_wrap(a, b) of Brad16: exact, the short way
-// round. Tests        tests/firmware/core/sine_test.cpp       Design note
-// docs/design/fixed-point.md
+//              round.
+// Design note  docs/design/fixed-point.md     Tests  tests/firmware/core/sine_test.cpp
 #pragma once
 
 #include "firmware/core/tables/sine_table.hpp"
@@ -14,33 +14,37 @@ namespace rover {
 
 /// Sine.
 /// @param angle_brad  s16 brad, any
-/// @return     s16 Q15, [-32767, 32767]; odd and symmetric about a quarter turn, bit for bit
-/// @accuracy   at most 1 LSB from the real sine (Sine.ErrorIsAtMostOneLsbAtEveryAngle)
-/// @rounding   half up in magnitude; +-1 saturates to +-32767
-[[gnu::noinline]] constexpr S16 sine_q15(SameAs<S16> auto angle_brad) {
-    U16 phase_brad = bit_and(narrow_wrap_u16(angle_brad), U16{0x7FFF});  // [0, 1/2) turn
-    if (phase_brad > U16{0x4000}) phase_brad = sub_wrap(U16{0x8000}, phase_brad);
-    const U16 index = shift_floor<6>(phase_brad);  // [0, 256]
-    const U8 fraction_q8 = narrow_wrap_u8(shift_left_wrap<2>(phase_brad));
-    // Entries use all 16 bits; their differences fit s16, which is all that lerp needs.
-    const S16 low_q16 = narrow_wrap_s16(look_up(kSineQuarterQ16, index));
-    const S16 high_q16 = narrow_wrap_s16(look_up(kSineQuarterQ16, add_wrap(index, U16{1})));
-    const U16 sine_q16 = narrow_wrap_u16(lerp_q8(low_q16, high_q16, fraction_q8));
-    const S16 magnitude_q15 = narrow_sat_s16(shift_round_half_up<1>(sine_q16));
-    return angle_brad < S16{0} ? neg_wrap(magnitude_q15) : magnitude_q15;
+/// @return     s16 Q14, [-16383, 16383]; odd and symmetric about a quarter turn, bit for bit
+/// @accuracy   at most 1.1 LSB from the real sine (Sine.ErrorIsAtMostOneLsbAndATenthAtEveryAngle)
+/// @rounding   half up in magnitude; +-1 saturates to +-16383
+[[gnu::noinline]] constexpr S16 sine_q14(SameAs<S16> auto angle_brad) {
+    const U16 magnitude_brad = abs_u16(angle_brad);  // [0, 1/2] turn
+    const U16 phase_brad =
+        magnitude_brad > U16{0x4000} ? sub_wrap(U16{0x8000}, magnitude_brad) : magnitude_brad;
+    const U16 place = shift_left_wrap<1>(phase_brad);
+    const U8 index = narrow_wrap_u8(shift_floor<8>(place));  // [0, 128]
+    const U8 fraction_q8 = narrow_wrap_u8(place);
+    const auto* const entry = kSineQuarterQ14 + index_of(index);
+    const U16 low_q14 = entry[0];
+    const U16 high_q14 = entry[1];
+    // Neighbours differ by 201 at most.
+    const U8 step_q14 = sub_wrap(narrow_wrap_u8(high_q14), narrow_wrap_u8(low_q14));
+    const U16 rise_q22 = add_wrap(mul_wide(step_q14, fraction_q8), U16{0x80});
+    const S16 magnitude_q14 = narrow_wrap_s16(add_wrap(low_q14, shift_floor<8>(rise_q22)));
+    return angle_brad < S16{0} ? neg_wrap(magnitude_q14) : magnitude_q14;
 }
 
 /// Cosine: the sine a quarter turn on; same bounds.
-constexpr S16 cosine_q15(SameAs<S16> auto angle_brad) {
-    return sine_q15(add_wrap(angle_brad, S16{0x4000}));
+constexpr S16 cosine_q14(SameAs<S16> auto angle_brad) {
+    return sine_q14(add_wrap(angle_brad, S16{0x4000}));
 }
 
 /// The same between units.
 constexpr Q15 sine(SameAs<Brad16> auto angle) {
-    return to_unit<Q15>(sine_q15(S16{raw(angle)}));
+    return to_unit<Q15>(shift_left_wrap<1>(sine_q14(S16{raw(angle)})));
 }
 constexpr Q15 cosine(SameAs<Brad16> auto angle) {
-    return to_unit<Q15>(cosine_q15(S16{raw(angle)}));
+    return to_unit<Q15>(shift_left_wrap<1>(cosine_q14(S16{raw(angle)})));
 }
 
 }  // namespace rover

@@ -23,29 +23,29 @@ constexpr void controller_step(Controller& controller, const hal::RawInputs& inp
     Estimates& estimates = controller.estimates;
     const bool first = !controller.started;
     begin_step(controller, inputs);
-    Angles angles;
-    estimates.faults = bit_or(
-        estimates.faults, read_angles(inputs, controller.calibration, controller.stuck, angles));
-    LinkagePose pose;
+    Angles& angles = controller.angles;
+    read_angles(inputs, controller.calibration, controller.stuck, angles);
+    estimates.faults = bit_or(estimates.faults, widen_u16(angles.faults));
+    LinkagePose& pose = controller.pose;
     linkage_pose(angles, pose);
-    OdometerStep travel;
+    OdometerStep& travel = controller.travel;
     odometer_step(controller.odometer, inputs, controller.calibration, travel);
+    controller.since_cycle_q4_mm = add_wrap(controller.since_cycle_q4_mm, travel.travel_q4_mm);
+    controller.past_due_q4_mm = add_wrap(controller.past_due_q4_mm, travel.travel_q4_mm);
     if (travel.valid) set_available(estimates, kAvailableOdometry);
     if (abs_u16(travel.travel_q4_mm) > uint16_t{kCycleTravelQ4Mm}) {
         set_event(estimates, kEventOverspeed);
     }
-    const bool scan_fresh = watch_scan(controller.scan, inputs);
-    if (can_look_ahead(pose, scan_fresh)) set_available(estimates, kAvailableLookAhead);
-    if (controller.scan.seen && controller.scan.age_steps >= kScanStaleSteps) {
-        set_fault(estimates, kFaultRangeStale);
-    }
+    // Samples lie ahead of the left wheels.
+    const bool looks_ahead = watch_scan(controller.scan, inputs) && pose.side == Side::left;
+    if (looks_ahead) set_available(estimates, kAvailableLookAhead);
+    if (controller.scan.age_steps == kScanStaleSteps) set_fault(estimates, kFaultRangeStale);
     report_attitude(estimates, angles, pose);
     CycleMotion motion = CycleMotion::moved;
     const bool due =
         moved_at_rest(controller, pose, travel.moving) || cycle_due(controller, motion);
     if (due) {
-        run_cycle(controller, inputs, pose, angles[hal::AngleChannel::pitch].brad, scan_fresh,
-                  motion);
+        run_cycle(controller, inputs, pose, angles[hal::AngleChannel::pitch], looks_ahead, motion);
     }
     if (due || first) report_cycle(controller);
     estimates.faults = bit_or(estimates.faults, controller.sensor_faults);

@@ -13,11 +13,12 @@
 
 namespace rover {
 
+inline constexpr uint8_t kNoScanYet = 255;
+
 /// Range scans as they arrive.
 struct ScanWatch {
     uint8_t last_scan_count = 0;
-    uint8_t age_steps = kScanStaleSteps;  ///< since the last new scan, saturating at the limit
-    bool seen = false;                    ///< a scan has ever arrived
+    uint8_t age_steps = kNoScanYet;  ///< since the last new scan, up to kScanStaleSteps
 };
 
 inline constexpr uint16_t kNoSlipShareQ15 = 32768;
@@ -28,15 +29,17 @@ struct Controller {
     uint16_t calibration_fault = 0;  ///< kFaultCalibration when nominal values are in use
     Estimates estimates;
     StuckWatch stuck;
+    Angles angles;  ///< of this step
+    LinkagePose pose;
+    OdometerStep travel;
     Odometer odometer;
     ScanWatch scan;
     MapGrid map;
     bool started = false;
-    uint16_t sensor_faults = 0;                     ///< tachometer fault of the last cycle
-    int32_t cycle_travel_q4_mm = kCycleTravelQ4Mm;  ///< odometer when the next forward cycle is due
-    int32_t last_travel_q4_mm = 0;                  ///< odometer at the last cycle
-    int32_t last_turn_q4_mm = 0;
-    int16_t odometer_rest_q6 = 0;          ///< remainder of the conversion to 1/64 bin, [0, 24]
+    uint16_t sensor_faults = 0;                  ///< tachometer fault of the last cycle
+    int16_t past_due_q4_mm = -kCycleTravelQ4Mm;  ///< travel past the next forward cycle's due point
+    int16_t since_cycle_q4_mm = 0;               ///< travel since the last cycle
+    uint8_t odometer_rest_q6 = 0;          ///< remainder of the conversion to 1/64 bin, [0, 24]
     int32_t cycle_position_q4_mm = 0;      ///< position at the last cycle
     uint16_t share_q15 = kNoSlipShareQ15;  ///< learned advance of a rim travel, [5460, 32768]
     Side side = Side::none;                ///< side whose linkage made the map
@@ -47,11 +50,11 @@ struct Controller {
 /// Turns a controller whose bytes are all 0 into Controller{}: an image then needs no copy of it.
 constexpr void set_initial_values(Controller& controller) {
     controller.calibration = hal::Calibration{};
-    controller.scan.age_steps = kScanStaleSteps;
+    controller.scan.age_steps = kNoScanYet;
     controller.map.mean_q12_bin = slip::kMeanNoSlipQ12Bin;
     controller.map.rough_q8_mm = slip::kInitialRoughQ8Mm;
     controller.map.match_cost_q10 = slip::kInitialCostQ10;
-    controller.cycle_travel_q4_mm = kCycleTravelQ4Mm;
+    controller.past_due_q4_mm = -kCycleTravelQ4Mm;
     controller.share_q15 = kNoSlipShareQ15;
 }
 

@@ -15,20 +15,14 @@ inline constexpr uint8_t kLookAheadBits = (1u << vehicle::kLookAheadCount) - 1u;
 /// Counts scans; true while the last one is fresh enough to use.
 constexpr bool watch_scan(ScanWatch& scan, const hal::RawInputs& inputs) {
     const bool present = bit_and(inputs.range_present, kLookAheadBits) != 0;
-    const bool is_new = present && (!scan.seen || inputs.range_scan_count != scan.last_scan_count);
-    if (is_new) {
-        scan.seen = true;
+    const bool is_new = inputs.range_scan_count != scan.last_scan_count;
+    scan.last_scan_count = inputs.range_scan_count;
+    if (present && (is_new || scan.age_steps == kNoScanYet)) {
         scan.age_steps = 0;
     } else if (scan.age_steps < kScanStaleSteps) {
         ++scan.age_steps;
     }
-    scan.last_scan_count = inputs.range_scan_count;
-    return present && scan.seen && scan.age_steps <= kScanFreshSteps;
-}
-
-/// Can look-ahead samples be joined to this pose? They lie ahead of the left wheels.
-constexpr bool can_look_ahead(const LinkagePose& pose, bool scan_fresh) {
-    return scan_fresh && pose.side == Side::left;
+    return present && scan.age_steps <= kScanFreshSteps;
 }
 
 /// Fills in the look-ahead part of a cycle's input and of the estimates.
@@ -36,63 +30,78 @@ constexpr bool can_look_ahead(const LinkagePose& pose, bool scan_fresh) {
                                                 const hal::RawInputs& inputs,
                                                 const LinkagePose& pose, int16_t pitch_brad,
                                                 MapGridInput& input) {
-    const LookAhead view = look_ahead(pose, pitch_brad);
+    LookAhead view;
+    look_ahead(pose, pitch_brad, view);
+    uint8_t present = inputs.range_present;
+    uint8_t seen = 0;
     for (uint8_t i = 0; i < vehicle::kLookAheadCount; ++i) {
-        if (bit_and(shift_floor(inputs.range_present, i), uint8_t{1}) == 0) continue;
-        const int16_t range_q1_mm =
-            sub_sat(inputs.range_q1_mm[i], controller.calibration.range_offset_q1_mm);
-        GroundPoint point;
-        ground_point(view, i, range_q1_mm, controller.calibration.wheel_radius_q4_mm, point);
-        input.ahead_height_q4_mm[input.ahead_count] = point.height_q4_mm;
-        input.ahead_distance_q6_bin[input.ahead_count] = point.distance_q6_bin;
-        ++input.ahead_count;
-        controller.estimates.height_ahead_q4_mm[i] = point.height_q4_mm;
+        if (bit_and(present, uint8_t{1}) != 0) {
+            GroundPoint point;
+            ground_point(view,
+                         sub_sat(inputs.range_q1_mm[i], controller.calibration.range_offset_q1_mm),
+                         controller.calibration.wheel_radius_q4_mm, point);
+            input.ahead_height_q4_mm[seen] = point.height_q4_mm;
+            input.ahead_distance_q6_bin[seen] = point.distance_q6_bin;
+            ++seen;
+            controller.estimates.height_ahead_q4_mm[i] = point.height_q4_mm;
+        }
+        present = shift_floor<1>(present);
+        look_further(view);
     }
+    input.ahead_count = seen;
 }
 
-/// Rim travel since the last cycle in 1/64 bin, rounded down, saturating; the remainder is carried
-/// to the next. 1/16 mm times 4/25.
-constexpr int16_t cycle_odometer_q6_bin(Controller& controller) {
-    const int32_t travel_q4_mm =
-        sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm);
-    controller.last_travel_q4_mm = controller.odometer.travel_q4_mm;
-    const int32_t scaled =
-        add_wrap(shift_left_wrap<2>(travel_q4_mm), widen_s32(controller.odometer_rest_q6));
-    const bool back = scaled < 0;
-    const uint32_t magnitude =
-        back ? add_wrap(abs_u32(scaled), uint32_t{24}) : narrow_wrap_u32(scaled);
-    const int16_t whole = narrow_sat_s16(div_floor_sat_u16(magnitude, uint16_t{25}));
-    const int16_t result = back ? neg_wrap(whole) : whole;
-    controller.odometer_rest_q6 = sub_wrap(narrow_wrap_s16(scaled), mul_wrap(result, int16_t{25}));
-    if (whole == kMaxOf<int16_t>) controller.odometer_rest_q6 = 0;  // the rest was not told
-    return result;
+/// Rim travel since the last cycle in 1/64 bin, rounded down; the remainder is carried to the next.
+/// 1/16 mm times 4/25. More than 1 m is taken as 1 m.
+[[gnu::noinline]] constexpr int16_t cycle_odometer_q6_bin(Controller& controller) {
+    constexpr uint16_t kMetreQ4Mm = 16000;  // four of them fit 16 bits
+    const bool back = controller.since_cycle_q4_mm < 0;
+    const uint16_t way_q4_mm = min(abs_u16(controller.since_cycle_q4_mm), kMetreQ4Mm);
+    controller.since_cycle_q4_mm = 0;
+    const uint8_t before_q6 = controller.odometer_rest_q6;
+    const uint8_t carried_q6 = back ? sub_wrap(uint8_t{24}, before_q6) : before_q6;
+    const uint16_t way_q6 = add_wrap(shift_left_wrap<2>(way_q4_mm), widen_u16(carried_q6));
+    // 1/25 is 2621.44 in Q16: at most one too few.
+    uint16_t whole = narrow_wrap_u16(shift_floor<16>(mul_wide(way_q6, uint16_t{2621})));
+    uint8_t rest_q6 =
+        sub_wrap(narrow_wrap_u8(way_q6), mul_wrap(narrow_wrap_u8(whole), uint8_t{25}));
+    if (rest_q6 >= 25) {
+        rest_q6 = sub_wrap(rest_q6, uint8_t{25});
+        whole = add_wrap(whole, uint16_t{1});
+    }
+    controller.odometer_rest_q6 = back ? sub_wrap(uint8_t{24}, rest_q6) : rest_q6;
+    const int16_t result = narrow_wrap_s16(whole);
+    return back ? neg_wrap(result) : result;
 }
 
 /// Which cycle, if any, is due after this step's odometry?
 constexpr bool cycle_due(const Controller& controller, CycleMotion& motion) {
-    const int32_t since = sub_wrap(controller.odometer.travel_q4_mm, controller.cycle_travel_q4_mm);
-    if (since >= 0) {
+    if (controller.past_due_q4_mm >= 0) {
         motion = CycleMotion::forward;
         return true;
     }
-    if (since <= -2 * int32_t{kCycleTravelQ4Mm}) {
+    if (controller.past_due_q4_mm <= -2 * kCycleTravelQ4Mm) {
         motion = CycleMotion::reverse;
         return true;
     }
-    const int32_t turn = sub_wrap(controller.odometer.turn_q4_mm, controller.last_turn_q4_mm);
     motion = CycleMotion::turn;
-    return abs_u32(turn) >= uint32_t{kCycleTravelQ4Mm};
+    return abs_u16(controller.odometer.turn_q4_mm) >= uint16_t{kCycleTravelQ4Mm};
 }
 
-/// Sets the odometer reading of the next forward cycle. Forward it counts from the last one, so
-/// that cycles come every 60.0 mm on average; after a step of more than a whole cycle, and in every
+/// Sets when the next forward cycle is due. Forward it counts from the last due point, so that
+/// cycles come every 60.0 mm on average; after a step of more than a whole cycle, and in every
 /// other motion, from here.
 constexpr void schedule_next(Controller& controller, CycleMotion motion) {
-    const int32_t from_here = add_wrap(controller.odometer.travel_q4_mm, int32_t{kCycleTravelQ4Mm});
-    const int32_t from_last = add_wrap(controller.cycle_travel_q4_mm, int32_t{kCycleTravelQ4Mm});
-    const bool ahead = sub_wrap(from_last, controller.odometer.travel_q4_mm) > 0;
-    controller.cycle_travel_q4_mm = motion == CycleMotion::forward && ahead ? from_last : from_here;
-    controller.last_turn_q4_mm = controller.odometer.turn_q4_mm;
+    int16_t past_due_q4_mm = sub_wrap(controller.past_due_q4_mm, kCycleTravelQ4Mm);
+    if (motion != CycleMotion::forward || past_due_q4_mm >= 0) past_due_q4_mm = -kCycleTravelQ4Mm;
+    controller.past_due_q4_mm = past_due_q4_mm;
+    controller.odometer.turn_q4_mm = 0;
+}
+
+/// Are two heights more than kMovedQ4Mm apart?
+constexpr bool has_moved(int16_t height_q4_mm, int16_t rest_q4_mm) {
+    const uint16_t apart = narrow_wrap_u16(sub_wrap(height_q4_mm, rest_q4_mm));
+    return add_wrap(apart, kMovedQ4Mm) > 2 * kMovedQ4Mm;
 }
 
 /// Has somebody moved the vehicle while its wheels stood still?
@@ -107,9 +116,8 @@ constexpr bool moved_at_rest(Controller& controller, const LinkagePose& pose, bo
         controller.rest_front_q4_mm = pose.front_height_q4_mm;
         return false;
     }
-    const bool moved =
-        abs_u16(sub_sat(pose.middle_height_q4_mm, controller.rest_middle_q4_mm)) > kMovedQ4Mm ||
-        abs_u16(sub_sat(pose.front_height_q4_mm, controller.rest_front_q4_mm)) > kMovedQ4Mm;
+    const bool moved = has_moved(pose.middle_height_q4_mm, controller.rest_middle_q4_mm) ||
+                       has_moved(pose.front_height_q4_mm, controller.rest_front_q4_mm);
     if (moved) controller.resting = false;
     return moved;
 }
@@ -132,8 +140,9 @@ constexpr int16_t forward_odometer(Controller& controller, int16_t odometer_q6_b
 }
 
 /// Runs one slip-and-sinkage cycle.
+/// @param looks_ahead  the samples can be joined to the pose: fresh, and ahead of the left wheels
 [[gnu::noinline]] constexpr void run_cycle(Controller& controller, const hal::RawInputs& inputs,
-                                           LinkagePose& pose, int16_t pitch_brad, bool scan_fresh,
+                                           LinkagePose& pose, int16_t pitch_brad, bool looks_ahead,
                                            CycleMotion motion) {
     Estimates& estimates = controller.estimates;
     MapGridInput input;
@@ -158,7 +167,7 @@ constexpr int16_t forward_odometer(Controller& controller, int16_t odometer_q6_b
         add_distances(pose);
         input.middle_distance_q6_bin = pose.middle_distance_q6_bin;
         input.front_distance_q6_bin = pose.front_distance_q6_bin;
-        if (can_look_ahead(pose, scan_fresh)) {
+        if (looks_ahead) {
             add_look_ahead(controller, inputs, pose, pitch_brad, input);
         }
     }

@@ -35,11 +35,8 @@ constexpr PoseRecord pose_record(const Controller& controller) {
     record.odometer_q4_mm = odometer.travel_q4_mm;
     record.variance_q12 = map.variance_q12;
     record.drift_q12_bin = map.drift_q12_bin;
-    // Neither exceeds a cycle and a step: 2 m fit.
-    record.since_cycle_q4_mm = sub_wrap(narrow_wrap_s16(odometer.travel_q4_mm),
-                                        narrow_wrap_s16(controller.last_travel_q4_mm));
-    record.turn_q4_mm =
-        sub_wrap(narrow_wrap_s16(odometer.turn_q4_mm), narrow_wrap_s16(controller.last_turn_q4_mm));
+    record.since_cycle_q4_mm = controller.since_cycle_q4_mm;
+    record.turn_q4_mm = odometer.turn_q4_mm;
     record.mean_q12_bin = map.mean_q12_bin;
     record.learned = map.learned;
     return record;
@@ -60,11 +57,9 @@ constexpr void controller_resume(Controller& controller, const PoseRecord& recor
     map.mean_q12_bin = clamp(record.mean_q12_bin, slip::kMeanMinQ12Bin, slip::kMeanNoSlipQ12Bin);
     map.learned = min(record.learned, slip::kLearnSteps);
     odometer.travel_q4_mm = record.odometer_q4_mm;
-    odometer.turn_q4_mm = widen_s32(record.turn_q4_mm);
-    controller.last_travel_q4_mm =
-        sub_wrap(record.odometer_q4_mm, widen_s32(record.since_cycle_q4_mm));
-    controller.cycle_travel_q4_mm =
-        add_wrap(controller.last_travel_q4_mm, int32_t{kCycleTravelQ4Mm});
+    odometer.turn_q4_mm = record.turn_q4_mm;
+    controller.since_cycle_q4_mm = record.since_cycle_q4_mm;
+    controller.past_due_q4_mm = sub_sat(record.since_cycle_q4_mm, kCycleTravelQ4Mm);
 }
 
 }  // namespace rover

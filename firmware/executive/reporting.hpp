@@ -36,28 +36,30 @@ constexpr void begin_step(Controller& controller, const hal::RawInputs& inputs) 
     estimates.tick_count = inputs.tick_count;
 }
 
-/// 1/64 bin to mm Q4: times 25/4, rounded down; exact modulo 2^32.
-constexpr int32_t q4_mm_from_q6_bin(int32_t value) {
-    const int32_t twice = shift_left_wrap<1>(value);
-    const int32_t six_times = add_wrap(twice, shift_left_wrap<1>(twice));
+/// 1/64 bin to mm Q4: times 25/4, rounded down; exact modulo the width of the type.
+template <Word T>
+constexpr T q4_mm_from_q6_bin(T value) {
+    const T twice = shift_left_wrap<1>(value);
+    const T six_times = add_wrap(twice, shift_left_wrap<1>(twice));
     return add_wrap(six_times, shift_floor<2>(value));
 }
 
 /// The learned mean as a share of the way without slip: u16 Q15, [5460, 32768].
 constexpr uint16_t learned_share_q15(const MapGrid& map) {
-    // 32768 / 9830 in Q13 is 27307.6; the product is at most 32768.3 in Q13.
-    constexpr uint16_t kPerMeanQ13 =
-        uint16_t{(268435456ul + slip::kMeanNoSlipQ12Bin / 2) / slip::kMeanNoSlipQ12Bin};
-    return narrow_wrap_u16(
-        shift_floor<13>(mul_wide(narrow_wrap_u16(map.mean_q12_bin), kPerMeanQ13)));
+    // 32768 / 9830 in Q14 is 54615.6; the product is at most 32768.2 in Q16.
+    constexpr uint16_t kPerMeanQ14 =
+        uint16_t{(536870912ul + slip::kMeanNoSlipQ12Bin / 2) / slip::kMeanNoSlipQ12Bin};
+    const uint16_t mean_q14_bin = shift_left_wrap<2>(narrow_wrap_u16(map.mean_q12_bin));
+    return narrow_wrap_u16(shift_floor<16>(mul_wide(mean_q14_bin, kPerMeanQ14)));
 }
 
 /// What the vehicle is taken to have advanced in a rim travel: the learned share forward, all of it
 /// backwards. The same in s16 Q4 mm and s16 1/64 bin; rounded down, one LSB at most from the share.
-constexpr int16_t learned_advance(const Controller& controller, int16_t rim_travel) {
-    if (rim_travel < 0) return rim_travel;
-    return narrow_wrap_s16(
-        shift_floor<15>(mul_wide(narrow_wrap_u16(rim_travel), controller.share_q15)));
+[[gnu::noinline]] constexpr int16_t learned_advance(const Controller& controller,
+                                                    int16_t rim_travel) {
+    if (rim_travel <= 0) return rim_travel;
+    const uint16_t twice = shift_left_wrap<1>(narrow_wrap_u16(rim_travel));
+    return narrow_wrap_s16(narrow_wrap_u16(shift_floor<16>(mul_wide(twice, controller.share_q15))));
 }
 
 /// What only a cycle changes: copies what the estimator knows into the estimates.
@@ -68,7 +70,8 @@ constexpr int16_t learned_advance(const Controller& controller, int16_t rim_trav
     controller.cycle_position_q4_mm = q4_mm_from_q6_bin(map.travelled_q6_bin);
     controller.share_q15 = learned_share_q15(map);
     estimates.position_sigma_q4_mm = position_sigma_q4_mm(map);
-    estimates.advance_q4_mm = narrow_sat_s16(q4_mm_from_q6_bin(widen_s32(map.advance_q6_bin)));
+    // Less than 5 m: a cycle's odometry is cut at one.
+    estimates.advance_q4_mm = q4_mm_from_q6_bin(map.advance_q6_bin);
     estimates.slip_percent = slip::slip_percent(map);
     estimates.match_cost_q4 = shift_floor<6>(map.match_cost_q10);
     estimates.sinkage_q4_mm = map.sinkage_q4_mm;
@@ -80,10 +83,9 @@ constexpr int16_t learned_advance(const Controller& controller, int16_t rim_trav
     Estimates& estimates = controller.estimates;
     const MapGrid& map = controller.map;
     // Between cycles the position runs on with the learned share of the odometer.
-    const int16_t since_cycle_q4_mm =
-        narrow_sat_s16(sub_wrap(controller.odometer.travel_q4_mm, controller.last_travel_q4_mm));
-    estimates.position_q4_mm = add_wrap(controller.cycle_position_q4_mm,
-                                        widen_s32(learned_advance(controller, since_cycle_q4_mm)));
+    estimates.position_q4_mm =
+        add_wrap(controller.cycle_position_q4_mm,
+                 widen_s32(learned_advance(controller, controller.since_cycle_q4_mm)));
     estimates.odometer_q4_mm = controller.odometer.travel_q4_mm;
     if (bit_and(estimates.available, uint8_t{kAvailableLinkage}) == 0) return;
     // Backwards no new ground is felt: the sinkage would be that of another place.
@@ -97,11 +99,10 @@ constexpr int16_t learned_advance(const Controller& controller, int16_t rim_trav
 /// Angles and linkage into the estimates.
 constexpr void report_attitude(Estimates& estimates, const Angles& angles,
                                const LinkagePose& pose) {
-    const AngleReading& pitch = angles[hal::AngleChannel::pitch];
-    const AngleReading& roll = angles[hal::AngleChannel::roll];
-    estimates.pitch_brad = pitch.brad;
-    estimates.roll_brad = roll.brad;
-    if (pitch.valid && roll.valid) set_available(estimates, kAvailableAttitude);
+    using enum hal::AngleChannel;
+    estimates.pitch_brad = angles[pitch];
+    estimates.roll_brad = angles[roll];
+    if (angles.has(pitch) && angles.has(roll)) set_available(estimates, kAvailableAttitude);
     estimates.rocker_brad = pose.rocker_brad;
     estimates.bogie_brad = pose.bogie_brad;
     estimates.height_middle_q4_mm = pose.middle_height_q4_mm;
@@ -109,14 +110,13 @@ constexpr void report_attitude(Estimates& estimates, const Angles& angles,
     if (pose.side != Side::none) set_available(estimates, kAvailableLinkage);
 }
 
-/// Drive ahead; slower while an alarm is up. Telemetry carries all estimates.
+/// Drive ahead; slower while an alarm is up. Telemetry carries all estimates. Steering, mast and
+/// lasers are left as they are: nothing commands them yet.
 constexpr void command(const Estimates& estimates, hal::Commands& commands) {
     const uint8_t alarms = static_cast<uint8_t>(kEventSlipAlarm | kEventSinkageAlarm);
     const bool caution = bit_and(estimates.events, alarms) != 0;
-    for (int8_t& drive : commands.drive_percent) drive = caution ? kCautionPercent : kCruisePercent;
-    for (int16_t& steer : commands.steer_brad) steer = 0;
-    commands.mast_brad = 0;
-    commands.laser_bits = 0;
+    const int8_t percent = caution ? kCautionPercent : kCruisePercent;
+    for (int8_t& drive : commands.drive_percent) drive = percent;
     commands.telemetry_size = write_telemetry(estimates, commands.telemetry);
 }
 

@@ -2,7 +2,8 @@
 // Depends on   config/vehicle.hpp, core/sine.hpp, inputs/angles.hpp.
 // Source       docs/design/controller.md, "Kinematics": z(1), z(2) from rocker and bogie angle,
 //              z(3) ... from the range samples in the body frame.
-// Bounds       two sines per step; in a cycle four more, and four products per range sample.
+// Bounds       two sines and two products by a byte in a step; in a cycle four more sines, and two
+//              products and two by a byte a range sample.
 #pragma once
 
 #include "firmware/config/vehicle.hpp"
@@ -22,53 +23,64 @@ struct LinkagePose {
     int16_t front_height_q4_mm = 0;   ///< z(2)
     uint16_t middle_distance_q6_bin = 0;
     uint16_t front_distance_q6_bin = 0;
-    int16_t rocker_sine_q15 = 0;
-    int16_t rocker_cosine_q15 = 0;  ///< with the distances
 };
 
-/// A sum of lengths times Q15 ratios, rounded half up to the length's format, saturating.
-/// @param sum  below 2^31 - 2^14: three products of this vehicle's lengths are
-constexpr int16_t whole_q15(int32_t sum) {
-    return narrow_sat_s16(shift_floor<15>(add_wrap(sum, int32_t{0x4000})));
+// The rocker is three bogie arms b, so R x -+ b y = 2 b (x + (x -+ y) / 2).
+static_assert(vehicle::kRockerQ4Mm == 3 * vehicle::kBogieArmQ4Mm);
+static_assert(vehicle::kRockerQ6Bin == 3 * vehicle::kBogieArmQ6Bin);
+
+/// x + (x + y) / 2, s16 Q14, rounded down.
+/// @param rocker_q14, bogie_q14  [-16383, 16383], so that nothing overflows
+constexpr int16_t arms_q14(int16_t rocker_q14, int16_t bogie_q14) {
+    return add_wrap(rocker_q14, halve_floor(add_wrap(rocker_q14, bogie_q14)));
 }
-static_assert(32768l * 32768 + 32768l * (vehicle::kBodyReferenceQ4Mm + vehicle::kLookAheadQ4Mm[1]) <
-              2147483647l - 0x4000);
+/// Twice a bogie's arm times a ratio, s16 Q4 mm, rounded half up.
+constexpr int16_t arms_q4_mm(int16_t arms_q14) {
+    static_assert(2ul * vehicle::kBogieArmQ4Mm * 512 == 125ul * 16384);
+    const int16_t twice = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{125}, arms_q14)));
+    return halve_floor(add_wrap(twice, int16_t{1}));
+}
+/// The same in 1/64 bin; what lies behind counts as 0.
+constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
+    static_assert(2ul * vehicle::kBogieArmQ6Bin * 256 == 10ul * 16384);
+    const int32_t distance_q14 = add_wrap(mul_wide(uint8_t{10}, arms_q14), int32_t{0x80});
+    return arms_q14 < 0 ? uint16_t{0} : narrow_wrap_u16(shift_floor<8>(distance_q14));
+}
 
 /// Pose of the left side; of the right one when the left bogie's potentiometer is not valid.
-/// Distances are left out: see add_distances().
+/// Distances are left as they are: see add_distances().
 [[gnu::noinline]] constexpr void linkage_pose(const Angles& angles, LinkagePose& pose) {
-    pose = LinkagePose{};
-    const AngleReading& pitch = angles[hal::AngleChannel::pitch];
-    const AngleReading& differential = angles[hal::AngleChannel::differential];
-    const AngleReading& left = angles[hal::AngleChannel::bogie_left];
-    const AngleReading& right = angles[hal::AngleChannel::bogie_right];
-    if (!pitch.valid || !differential.valid || (!left.valid && !right.valid)) return;
-    pose.side = left.valid ? Side::left : Side::right;
-    pose.rocker_brad = left.valid ? add_wrap(pitch.brad, differential.brad)
-                                  : sub_wrap(pitch.brad, differential.brad);
-    pose.bogie_brad = add_wrap(pose.rocker_brad, left.valid ? left.brad : right.brad);
-    pose.rocker_sine_q15 = sine_q15(pose.rocker_brad);
-    const int32_t rocker_q19 = mul_wide(vehicle::kRockerQ4Mm, pose.rocker_sine_q15);
-    const int32_t bogie_q19 = mul_wide(vehicle::kBogieArmQ4Mm, sine_q15(pose.bogie_brad));
-    pose.middle_height_q4_mm = whole_q15(sub_wrap(rocker_q19, bogie_q19));
-    pose.front_height_q4_mm = whole_q15(add_wrap(rocker_q19, bogie_q19));
+    using enum hal::AngleChannel;
+    const bool left = angles.has(bogie_left);
+    if (!angles.has(pitch) || !angles.has(differential) || (!left && !angles.has(bogie_right))) {
+        pose = LinkagePose{};
+        return;
+    }
+    pose.side = left ? Side::left : Side::right;
+    const int16_t turned_brad = angles[differential];
+    pose.rocker_brad =
+        left ? add_wrap(angles[pitch], turned_brad) : sub_wrap(angles[pitch], turned_brad);
+    pose.bogie_brad = add_wrap(pose.rocker_brad, left ? angles[bogie_left] : angles[bogie_right]);
+    const int16_t rocker_q14 = sine_q14(pose.rocker_brad);
+    const int16_t bogie_q14 = sine_q14(pose.bogie_brad);
+    pose.middle_height_q4_mm = arms_q4_mm(arms_q14(rocker_q14, neg_wrap(bogie_q14)));
+    pose.front_height_q4_mm = arms_q4_mm(arms_q14(rocker_q14, bogie_q14));
 }
 
 /// The distances of a pose: only a slip-and-sinkage cycle needs them.
+/// @param pose  of a side
 constexpr void add_distances(LinkagePose& pose) {
-    if (pose.side == Side::none) return;
-    pose.rocker_cosine_q15 = cosine_q15(pose.rocker_brad);
-    const int32_t rocker_q21 = mul_wide(vehicle::kRockerQ6Bin, pose.rocker_cosine_q15);
-    const int32_t bogie_q21 = mul_wide(vehicle::kBogieArmQ6Bin, cosine_q15(pose.bogie_brad));
-    pose.middle_distance_q6_bin = narrow_sat_u16(whole_q15(sub_wrap(rocker_q21, bogie_q21)));
-    pose.front_distance_q6_bin = narrow_sat_u16(whole_q15(add_wrap(rocker_q21, bogie_q21)));
+    const int16_t rocker_q14 = cosine_q14(pose.rocker_brad);
+    const int16_t bogie_q14 = cosine_q14(pose.bogie_brad);
+    pose.middle_distance_q6_bin = arms_q6_bin(arms_q14(rocker_q14, neg_wrap(bogie_q14)));
+    pose.front_distance_q6_bin = arms_q6_bin(arms_q14(rocker_q14, bogie_q14));
 }
 
 /// Pose with distances.
 constexpr LinkagePose linkage_pose(const Angles& angles) {
     LinkagePose pose;
     linkage_pose(angles, pose);
-    add_distances(pose);
+    if (pose.side != Side::none) add_distances(pose);
     return pose;
 }
 
@@ -78,42 +90,79 @@ struct GroundPoint {
     uint16_t distance_q6_bin = 0;
 };
 
-/// What every range sample of a scan shares: the body pivot, and the body's direction.
+/// The upper half of a product, rounded down.
+[[gnu::noinline]] constexpr int16_t mul_upper(int16_t a, int16_t b) {
+    return narrow_wrap_s16(shift_floor<16>(mul_wide(a, b)));
+}
+
+inline constexpr int16_t kBinPerMmQ15 = 20972;  ///< 16/25: 1/256 bin in 1/16 mm
+
+/// What every range sample of a scan shares: the body's direction; and a place that goes from
+/// sample to sample, at axle height, from the rear contact's axle on.
 struct LookAhead {
-    int32_t pivot_up_q19_mm = 0;     ///< s32 Q19 mm, above the rear contact's axle
-    int32_t pivot_along_q19_mm = 0;  ///< ahead of it
-    int16_t pitch_sine_q15 = 0;
-    int16_t pitch_cosine_q15 = 0;
+    int16_t up_q4_mm = 0;
+    int16_t along_q8_bin = 0;
+    int16_t step_up_q4_mm = 0;  ///< from one sample to the next
+    int16_t step_along_q8_bin = 0;
+    int16_t versine_q14 = 0;   ///< 1 less the cosine of the pitch
+    int16_t sine_q14_bin = 0;  ///< of the pitch, times 16/25: 1/16 mm are so many 1/256 bin
 };
 
+// The body pivot is half way along the rocker, and z(1) + z(2) is twice the rocker's height. From
+// it the first sample is 412.5 mm, 33/2 bins, the second another 200 mm, 8 bins.
+static_assert(2 * vehicle::kBodyReferenceQ4Mm == vehicle::kRockerQ4Mm);
+static_assert(vehicle::kLookAheadCount == 2 && vehicle::kLookAheadQ4Mm[0] == 6600 &&
+              vehicle::kLookAheadQ4Mm[1] - vehicle::kLookAheadQ4Mm[0] == 3200);
+
+/// The view to the first sample.
 /// @param pose  with distances
-constexpr LookAhead look_ahead(const LinkagePose& pose, int16_t pitch_brad) {
-    using vehicle::kBodyReferenceQ4Mm;
-    return {mul_wide(kBodyReferenceQ4Mm, pose.rocker_sine_q15),
-            mul_wide(kBodyReferenceQ4Mm, pose.rocker_cosine_q15), sine_q15(pitch_brad),
-            cosine_q15(pitch_brad)};
+/// @param pitch_brad  [-1/4, 1/4] turn
+constexpr void look_ahead(const LinkagePose& pose, int16_t pitch_brad, LookAhead& view) {
+    const int16_t sine = sine_q14(pitch_brad);
+    const int16_t cosine = cosine_q14(pitch_brad);
+    // 6600 in Q14 is 103 and 1/8 in Q8. 5/4 make up for the terms that are rounded down.
+    const int32_t first_up_q12_mm = add_wrap(mul_wide(uint8_t{103}, sine), int32_t{0x140});
+    const int16_t pivot_up_q4_mm =
+        shift_floor<2>(add_wrap(pose.middle_height_q4_mm, pose.front_height_q4_mm));
+    view.up_q4_mm =
+        add_wrap(add_wrap(pivot_up_q4_mm, narrow_wrap_s16(shift_floor<8>(first_up_q12_mm))),
+                 shift_floor<11>(sine));
+    view.step_up_q4_mm = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{50}, sine)));
+    const uint16_t pivot_along_q8_bin =
+        add_wrap(pose.middle_distance_q6_bin, pose.front_distance_q6_bin);
+    view.along_q8_bin = add_wrap(narrow_wrap_s16(pivot_along_q8_bin),
+                                 narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{66}, cosine))));
+    view.step_along_q8_bin = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{32}, cosine)));
+    view.versine_q14 = sub_wrap(int16_t{16384}, cosine);
+    view.sine_q14_bin = mul_upper(shift_left_wrap<1>(sine), kBinPerMmQ15);
 }
 
-/// Range sample `index` turned from the body frame into the frame of the rear contact.
+/// On to the next sample.
+constexpr void look_further(LookAhead& view) {
+    view.up_q4_mm = add_wrap(view.up_q4_mm, view.step_up_q4_mm);
+    view.along_q8_bin = add_wrap(view.along_q8_bin, view.step_along_q8_bin);
+}
+
+inline constexpr int16_t kRangeMaxQ1Mm = 800;     ///< 400 mm up or down: beyond is taken as this
+inline constexpr uint16_t kRadiusMaxQ4Mm = 1600;  ///< 100 mm
+
+/// A range sample turned from the body frame into the frame of the rear contact.
 /// @param range_q1_mm       s16 Q1 mm, offset already taken off; level ground reads 0
 /// @param wheel_radius_q4_mm  the sensor's zero is one wheel radius below axle height
-[[gnu::noinline]] constexpr void ground_point(const LookAhead& view, uint8_t index,
-                                              int16_t range_q1_mm, uint16_t wheel_radius_q4_mm,
-                                              GroundPoint& point) {
-    const uint16_t ahead_q4_mm = vehicle::kLookAheadQ4Mm[index];
-    const int16_t radius_q4_mm = narrow_sat_s16(wheel_radius_q4_mm);
-    const int16_t below_q4_mm = sub_sat(shift_left_sat<3>(range_q1_mm), radius_q4_mm);
-    const int32_t up_q19_mm =
-        add_wrap(add_wrap(view.pivot_up_q19_mm, mul_wide(ahead_q4_mm, view.pitch_sine_q15)),
-                 mul_wide(below_q4_mm, view.pitch_cosine_q15));
-    const int32_t along_q19_mm =
-        sub_wrap(add_wrap(view.pivot_along_q19_mm, mul_wide(ahead_q4_mm, view.pitch_cosine_q15)),
-                 mul_wide(below_q4_mm, view.pitch_sine_q15));
-    point.height_q4_mm = add_sat(whole_q15(up_q19_mm), radius_q4_mm);
-    // mm Q4 to 1/64 bin: times 4/25, which is 10485.8 in Q16.
-    const uint16_t along_q4_mm = narrow_sat_u16(whole_q15(along_q19_mm));
-    point.distance_q6_bin = narrow_wrap_u16(
-        shift_floor<16>(add_wrap(mul_wide(along_q4_mm, uint16_t{10486}), uint32_t{0x8000})));
+[[gnu::noinline]] constexpr void ground_point(const LookAhead& view, int16_t range_q1_mm,
+                                              uint16_t wheel_radius_q4_mm, GroundPoint& point) {
+    const int16_t radius_q4_mm = narrow_wrap_s16(min(wheel_radius_q4_mm, kRadiusMaxQ4Mm));
+    const int16_t range_q4_mm =
+        shift_left_wrap<3>(clamp(range_q1_mm, static_cast<int16_t>(-kRangeMaxQ1Mm), kRangeMaxQ1Mm));
+    const int16_t below_q6_mm = shift_left_wrap<2>(sub_wrap(range_q4_mm, radius_q4_mm));
+    // below * cosine + radius = range - below * versine
+    point.height_q4_mm =
+        sub_wrap(add_wrap(view.up_q4_mm, range_q4_mm), mul_upper(view.versine_q14, below_q6_mm));
+    const int16_t along_q8_bin =
+        sub_wrap(view.along_q8_bin, mul_upper(view.sine_q14_bin, below_q6_mm));
+    point.distance_q6_bin =
+        narrow_sat_u16(halve_floor(halve_floor(add_wrap(along_q8_bin, int16_t{2}))));
 }
+static_assert(32l * kRangeMaxQ1Mm + 4l * kRadiusMaxQ4Mm < 32768, "below_q6_mm");
 
 }  // namespace rover

@@ -98,6 +98,12 @@ constexpr uint16_t frame_crc(const uint8_t* frame) {
 
 }  // namespace link
 
+/// Where structs have no padding and words are little endian, as on the target, the payload is the
+/// estimates' bytes. for_each_field() visits them in the order of their declarations (Telemetry.
+/// VisitsTheFieldsInTheOrderOfTheirDeclarations).
+inline constexpr bool kEstimatesAreThePayload =
+    sizeof(Estimates) == kTelemetryPayloadSize && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+
 /// Writes one frame. @return kTelemetrySize
 [[gnu::noinline]] constexpr uint8_t write_telemetry(const Estimates& estimates,
                                                     uint8_t (&frame)[hal::kTelemetryBytesMax]) {
@@ -106,7 +112,12 @@ constexpr uint16_t frame_crc(const uint8_t* frame) {
     writer.put(kTelemetrySync1);
     writer.put(kTelemetryVersion);
     writer.put(kTelemetryPayloadSize);
-    for_each_field(estimates, [&writer](auto field) { writer(field); });
+    if constexpr (kEstimatesAreThePayload) {
+        __builtin_memcpy(frame + kTelemetryHeadSize, &estimates, kTelemetryPayloadSize);
+        writer.size = kTelemetryHeadSize + kTelemetryPayloadSize;
+    } else {
+        for_each_field(estimates, [&writer](auto field) { writer(field); });
+    }
     writer.put(link::frame_crc(frame));
     return writer.size;
 }

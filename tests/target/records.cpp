@@ -43,14 +43,15 @@ void add(Record& record, const rover::Estimates& value) {
 }
 
 void add(Record& record, const rover::Odometer& value) {
-    record.field("odometer.last_count", value.last_count);
-    record.field("odometer.started", value.started);
-    record.field("odometer.rest_q17_mm", value.rest_q17_mm);
-    record.field("odometer.turn_rest_q17_mm", value.turn_rest_q17_mm);
+    record.field("odometer.offset_count", value.offset_count);
+    record.field("odometer.side_count", value.side_count);
+    record.field("odometer.lead_count", value.lead_count);
+    record.field("odometer.drift_count", value.drift_count);
+    record.field("odometer.present", value.present);
+    record.field("odometer.rest_q20_mm", value.rest_q20_mm);
+    record.field("odometer.turn_rest_q20_mm", value.turn_rest_q20_mm);
     record.field("odometer.travel_q4_mm", value.travel_q4_mm);
     record.field("odometer.turn_q4_mm", value.turn_q4_mm);
-    record.field("odometer.lead_count", value.lead_count);
-    record.field("odometer.wheel_cycle_count", value.wheel_cycle_count);
 }
 
 void add(Record& record, const rover::MapGrid& value) {
@@ -137,16 +138,19 @@ Record record_of(const rover::Controller& controller) {
     add(record, controller.estimates);
     record.field("stuck.last_q4_count", controller.stuck.last_q4_count);
     record.field("stuck.same_cycles", controller.stuck.same_cycles);
+    record.field("stuck.stuck", controller.stuck.stuck);
+    record.field("angles.brad", controller.angles.brad);
+    record.field("angles.valid", controller.angles.valid);
+    record.field("angles.faults", controller.angles.faults);
+    record.field("angles.stuck", controller.angles.stuck);
     add(record, controller.odometer);
     record.field("scan.last_scan_count", controller.scan.last_scan_count);
     record.field("scan.age_steps", controller.scan.age_steps);
-    record.field("scan.seen", controller.scan.seen);
     add(record, controller.map);
     record.field("started", controller.started);
     record.field("sensor_faults", controller.sensor_faults);
-    record.field("cycle_travel_q4_mm", controller.cycle_travel_q4_mm);
-    record.field("last_travel_q4_mm", controller.last_travel_q4_mm);
-    record.field("last_turn_q4_mm", controller.last_turn_q4_mm);
+    record.field("past_due_q4_mm", controller.past_due_q4_mm);
+    record.field("since_cycle_q4_mm", controller.since_cycle_q4_mm);
     record.field("odometer_rest_q6", controller.odometer_rest_q6);
     record.field("cycle_position_q4_mm", controller.cycle_position_q4_mm);
     record.field("share_q15", controller.share_q15);

@@ -24,12 +24,12 @@ void add(Accuracy& row, double error) {
 }
 
 Accuracy sine_accuracy(const char* name, bool cosine) {
-    Accuracy row{name, "s16 Q15", "all angles", 0, 0.0, 0.0, 1.0};
+    Accuracy row{name, "s16 Q14", "all angles", 0, 0.0, 0.0, 1.1};
     for (int32_t angle = kS16Min; angle <= kS16Max; ++angle) {
         const auto brad = static_cast<int16_t>(angle);
         const double radian = angle / kBradPerRadian;
-        const double real = 32768.0 * (cosine ? std::cos(radian) : std::sin(radian));
-        add(row, (cosine ? rover::cosine_q15(brad) : rover::sine_q15(brad)) - real);
+        const double real = 16384.0 * (cosine ? std::cos(radian) : std::sin(radian));
+        add(row, (cosine ? rover::cosine_q14(brad) : rover::sine_q14(brad)) - real);
     }
     return row;
 }
@@ -70,7 +70,7 @@ Accuracy isqrt32_accuracy() {
 }  // namespace
 
 std::vector<Accuracy> measure_accuracy() {
-    return {sine_accuracy("sine_q15", false), sine_accuracy("cosine_q15", true), atan2_accuracy(),
+    return {sine_accuracy("sine_q14", false), sine_accuracy("cosine_q14", true), atan2_accuracy(),
             isqrt16_accuracy(), isqrt32_accuracy()};
 }
 

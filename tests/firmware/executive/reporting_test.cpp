@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace {
 
@@ -81,13 +80,14 @@ TEST(ReportMap, SlipIsNotAvailableBeforeTheRearWheelStandsOnMeasuredGround) {
     EXPECT_EQ(report.make(true).available & kAvailableSlip, 0);
 }
 
-TEST(ReportMap, PositionRunsOnFromTheLastCycleAcrossTheOdometersWrap) {
+TEST(ReportMap, PositionRunsOnFromTheLastCycle) {
     Report report;
     report.controller.map.mean_q12_bin = 4915;  // half
     report.controller.map.travelled_q6_bin = 64 * 100;
-    report.controller.last_travel_q4_mm = std::numeric_limits<std::int32_t>::max() - 99;
-    report.controller.odometer.travel_q4_mm = std::numeric_limits<std::int32_t>::min() + 300;
+    report.controller.since_cycle_q4_mm = 400;
     EXPECT_EQ(report.make(true).position_q4_mm, 100 * 400 + 200);
+    report.controller.since_cycle_q4_mm = -400;
+    EXPECT_EQ(report.make(true).position_q4_mm, 100 * 400 - 400);
 }
 
 TEST(Command, DrivesAheadAndSlowlyWhileAnAlarmIsUp) {

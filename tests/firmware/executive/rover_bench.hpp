@@ -26,7 +26,7 @@ struct RoverBench {
     }
 
     std::uint16_t& adc(std::size_t channel) {
-        return inputs.adc_q4_count[static_cast<std::size_t>(rover::kAngleAdc[channel])];
+        return inputs.adc_q4_count[static_cast<std::size_t>(channel)];
     }
     std::uint16_t& adc(hal::AngleChannel channel) { return adc(static_cast<std::size_t>(channel)); }
 

@@ -55,20 +55,31 @@ struct Bench {
         }
     }
     void set(AngleChannel channel, std::uint16_t count) {
-        const auto adc = rover::kAngleAdc[static_cast<std::size_t>(channel)];
+        using enum hal::AdcChannel;
+        constexpr hal::AdcChannel kAdc[] = {bogie_left, bogie_right, differential, pitch, roll};
+        const hal::AdcChannel adc = kAdc[static_cast<std::size_t>(channel)];
         inputs.adc_q4_count[static_cast<std::size_t>(adc)] = count;
     }
-    std::uint16_t read() { return rover::read_angles(inputs, calibration, watch, angles); }
+    std::uint16_t read() {
+        rover::read_angles(inputs, calibration, watch, angles);
+        return angles.faults;
+    }
 };
 
 TEST(ReadAngles, ChannelsComeFromTheirOwnMultiplexerInputs) {
     Bench bench;
     EXPECT_EQ(bench.read(), 0);
     for (std::uint8_t i = 0; i < hal::kAngleChannelCount; ++i) {
-        ASSERT_TRUE(bench.angles.channel[i].valid);
-        EXPECT_EQ(bench.angles.channel[i].brad,
-                  real_angle_brad(30000u + 100u * i, bench.calibration.angle[i]));
+        ASSERT_TRUE(bench.angles.has(static_cast<AngleChannel>(i)));
+        const bool asked = static_cast<AngleChannel>(i) != AngleChannel::bogie_right;
+        EXPECT_EQ(bench.angles.brad[i],
+                  asked ? real_angle_brad(30000u + 100u * i, bench.calibration.angle[i]) : 0);
     }
+    bench.set(AngleChannel::bogie_left, 0);
+    bench.read();
+    EXPECT_EQ(bench.angles[AngleChannel::bogie_left], 0);
+    EXPECT_EQ(bench.angles[AngleChannel::bogie_right],
+              real_angle_brad(30100, bench.calibration.angle[1]));
 }
 
 TEST(ReadAngles, AbsentIsInvalidWithoutAFault) {
@@ -76,8 +87,8 @@ TEST(ReadAngles, AbsentIsInvalidWithoutAFault) {
         Bench bench;
         bench.set(AngleChannel::roll, count);
         EXPECT_EQ(bench.read(), 0);
-        EXPECT_FALSE(bench.angles[AngleChannel::roll].valid);
-        EXPECT_TRUE(bench.angles[AngleChannel::pitch].valid);
+        EXPECT_FALSE(bench.angles.has(AngleChannel::roll));
+        EXPECT_TRUE(bench.angles.has(AngleChannel::pitch));
     }
 }
 
@@ -90,7 +101,7 @@ TEST(ReadAngles, ARailIsAFaultOfThatChannelAlone) {
             bench.set(static_cast<AngleChannel>(i), rail);
             EXPECT_EQ(bench.read(), bits[i]);
             for (std::uint8_t j = 0; j < hal::kAngleChannelCount; ++j) {
-                EXPECT_EQ(bench.angles.channel[j].valid, i != j);
+                EXPECT_EQ(bench.angles.has(static_cast<AngleChannel>(j)), i != j);
             }
         }
     }
@@ -100,7 +111,7 @@ TEST(ReadAngles, AnUncalibratedChannelIsAFault) {
     Bench bench;
     bench.calibration.angle[2].gain_q16 = 0;
     EXPECT_EQ(bench.read(), rover::kFaultDifferential);
-    EXPECT_FALSE(bench.angles[AngleChannel::differential].valid);
+    EXPECT_FALSE(bench.angles.has(AngleChannel::differential));
 }
 
 TEST(StuckWatch, AFrozenChannelIsAFaultAfterEightCyclesAndHealsWhenItChanges) {
@@ -115,13 +126,28 @@ TEST(StuckWatch, AFrozenChannelIsAFaultAfterEightCyclesAndHealsWhenItChanges) {
         rover::watch_cycle(bench.watch, bench.inputs);
         // The first cycle only learns the value; eight repetitions later it is believed stuck.
         EXPECT_EQ(bench.read(), cycle >= 9 ? rover::kFaultDifferential : 0) << cycle;
-        EXPECT_EQ(bench.angles[AngleChannel::differential].valid, cycle < 9) << cycle;
+        EXPECT_EQ(bench.angles.has(AngleChannel::differential), cycle < 9) << cycle;
     }
     bench.set(AngleChannel::differential, 30201);
     EXPECT_EQ(bench.read(), 0);
-    EXPECT_TRUE(bench.angles[AngleChannel::differential].valid);
+    EXPECT_TRUE(bench.angles.has(AngleChannel::differential));
     rover::watch_cycle(bench.watch, bench.inputs);
     EXPECT_EQ(bench.read(), 0);
+}
+
+TEST(StuckWatch, AStuckLeftBogieHandsOverToTheRightOne) {
+    Bench bench;
+    for (std::uint16_t cycle = 0; cycle < 10; ++cycle) {
+        bench.set(AngleChannel::pitch, static_cast<std::uint16_t>(30000 + cycle));
+        bench.set(AngleChannel::bogie_right, static_cast<std::uint16_t>(31000 + cycle));
+        rover::watch_cycle(bench.watch, bench.inputs);
+        bench.read();
+    }
+    EXPECT_FALSE(bench.angles.has(AngleChannel::bogie_left));
+    EXPECT_EQ(bench.angles[AngleChannel::bogie_left], 0);
+    EXPECT_TRUE(bench.angles.has(AngleChannel::bogie_right));
+    EXPECT_EQ(bench.angles[AngleChannel::bogie_right],
+              real_angle_brad(31009, bench.calibration.angle[1]));
 }
 
 TEST(StuckWatch, NothingIsStuckWhileNothingChanges) {

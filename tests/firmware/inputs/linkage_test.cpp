@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "host_sim/world/linkage.hpp"
@@ -23,12 +25,14 @@ rover::Angles angles(std::int16_t bogie_left, std::int16_t bogie_right, std::int
                      std::int16_t pitch) {
     rover::Angles result;
     const std::int16_t values[] = {bogie_left, bogie_right, differential, pitch, 0};
-    for (std::size_t i = 0; i < hal::kAngleChannelCount; ++i) result.channel[i] = {values[i], true};
+    std::copy(std::begin(values), std::end(values), result.brad);
+    result.valid = rover::kAllAngles;
     return result;
 }
 
 void invalidate(rover::Angles& angles, AngleChannel channel) {
-    angles.channel[static_cast<std::size_t>(channel)] = {};
+    angles.brad[static_cast<std::size_t>(channel)] = 0;
+    angles.valid = static_cast<std::uint8_t>(angles.valid & ~rover::channel_bit(channel));
 }
 
 TEST(Linkage, HeightsAndDistancesAreWithinATenthOfAMillimetreAndAUnitOverAllPoses) {
@@ -60,8 +64,10 @@ TEST(Linkage, HeightsAndDistancesAreWithinATenthOfAMillimetreAndAUnitOverAllPose
     }
     RecordProperty("worst_height_mm", std::to_string(worst_mm));
     RecordProperty("worst_distance_q6_bin", std::to_string(worst_q6));
-    EXPECT_LE(worst_mm, 0.05);
-    EXPECT_LE(worst_q6, 0.6);  // 0.23 mm
+    // Both sines are within 1.1 / 16384 (0.034 mm at 375 + 125 mm), half their sum is rounded down
+    // (0.008 mm), the height to 1/16 mm (0.031 mm).
+    EXPECT_LE(worst_mm, 0.073);
+    EXPECT_LE(worst_q6, 0.61);  // 0.24 mm: the same, and half a unit
 }
 
 /// A rover on hills, both sides on their own: what the sensors read gives back the contacts.
@@ -114,14 +120,16 @@ TEST(Linkage, NeedsPitchDifferentialAndOneBogie) {
     EXPECT_EQ(side_without({differential}), rover::Side::none);
 }
 
-/// Where a sample lies for the rocker's angle of `pose`.
-rover::GroundPoint ground_point(rover::LinkagePose pose, std::int16_t pitch_brad,
+/// Where a sample lies for a rocker's and a body's angle; the bogie lies along the rocker.
+rover::GroundPoint ground_point(std::int16_t rocker_brad, std::int16_t pitch_brad,
                                 std::uint8_t index, int range_q1_mm) {
-    pose.rocker_sine_q15 = rover::sine_q15(pose.rocker_brad);
-    pose.rocker_cosine_q15 = rover::cosine_q15(pose.rocker_brad);
+    const auto differential = static_cast<std::int16_t>(rocker_brad - pitch_brad);
+    const auto pose = rover::linkage_pose(angles(0, 0, differential, pitch_brad));
+    rover::LookAhead view;
+    rover::look_ahead(pose, pitch_brad, view);
+    for (; index != 0; --index) rover::look_further(view);
     rover::GroundPoint point;
-    rover::ground_point(rover::look_ahead(pose, pitch_brad), index,
-                        static_cast<std::int16_t>(range_q1_mm), 1040, point);
+    rover::ground_point(view, static_cast<std::int16_t>(range_q1_mm), 1040, point);
     return point;
 }
 
@@ -132,21 +140,20 @@ TEST(GroundPoint, IsWhereTheSimulatedLookAheadSampleLies) {
     for (int slope = -40; slope <= 40; slope += 5) {
         for (int rocker_deg = -30; rocker_deg <= 30; rocker_deg += 10) {
             for (int pitch_deg = -30; pitch_deg <= 30; pitch_deg += 10) {
-                rover::LinkagePose pose;
-                pose.rocker_brad = brad(rocker_deg);
+                const std::int16_t rocker = brad(rocker_deg);
                 const std::int16_t pitch = brad(pitch_deg);
                 host_sim::RangeView view;
-                view.rocker_rad = pose.rocker_brad * kRadPerBrad;
+                view.rocker_rad = rocker * kRadPerBrad;
                 view.pitch_rad = pitch * kRadPerBrad;
                 const auto ground = [&](double x) { return 0.01 * slope * x + std::sin(x / 9); };
                 view.rear_height_cm = ground(0);
                 for (std::uint8_t i = 0; i < 2; ++i) {
                     const double ahead_cm = (i == 0 ? 60 : 80) - 18.75;
                     const auto sight = host_sim::look_ahead(view, ahead_cm, ground);
-                    if (!sight.seen) continue;
+                    if (!sight.seen || std::abs(sight.height_cm) > 40) continue;
                     ++seen;
                     const auto range = static_cast<std::int16_t>(std::lround(20 * sight.height_cm));
-                    const auto point = ground_point(pose, pitch, i, range);
+                    const auto point = ground_point(rocker, pitch, i, range);
                     const double height_mm = 10 * (ground(sight.x_cm) - ground(0));
                     worst_height_mm =
                         std::fmax(worst_height_mm, std::abs(point.height_q4_mm / 16.0 - height_mm));
@@ -164,11 +171,10 @@ TEST(GroundPoint, IsWhereTheSimulatedLookAheadSampleLies) {
     EXPECT_LE(worst_place_mm, 0.45);
 }
 
-TEST(GroundPoint, SaturatesInsteadOfWrapping) {
-    rover::LinkagePose pose;
-    EXPECT_GT(ground_point(pose, 0, 1, 32767).height_q4_mm, 30000);
-    EXPECT_LT(ground_point(pose, 0, 1, -32768).height_q4_mm, -30000);
-    EXPECT_EQ(ground_point(pose, brad(90), 1, 32767).distance_q6_bin, 0);
+TEST(GroundPoint, ARangeBeyondFourHundredMillimetresIsTakenAsThat) {
+    EXPECT_NEAR(ground_point(0, 0, 1, 32767).height_q4_mm / 16.0, 400, 0.2);
+    EXPECT_NEAR(ground_point(0, 0, 1, -32768).height_q4_mm / 16.0, -400, 0.2);
+    EXPECT_EQ(ground_point(0, brad(89), 1, 32767).distance_q6_bin, 0) << "not behind";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
 namespace {
 
@@ -129,7 +130,7 @@ TEST(Odometer, AnUpsetCounterIsNotDriven) {
     Wheels wheels;
     wheels.start();
     for (int i = 0; i < 100; ++i) wheels.step(all(1.0));
-    for (const std::uint16_t jump : {std::uint16_t{0x8000}, std::uint16_t{16001}}) {
+    for (const std::uint16_t jump : {std::uint16_t{0x8000}, std::uint16_t{1901}}) {
         const double before_mm = wheels.measured_mm();
         for (std::uint16_t& count : wheels.inputs.tach_count) {
             count = static_cast<std::uint16_t>(count + jump);
@@ -180,6 +181,55 @@ TEST(Odometer, AnAbsentWheelThatCountsDoesNotCountAsMoving) {
     EXPECT_TRUE(wheels.step({0, 0, 0, 0, 0, 1}).moving);
 }
 
+// The short way through a side is the general one in bytes: same pulses, same state.
+TEST(Odometer, ASideInBytesIsASideInGeneral) {
+    std::mt19937 random(20261122);
+    std::uniform_int_distribution<int> pulses(-60, 60);
+    std::uniform_int_distribution<int> jitter(-3, 3);
+    Wheels wheels;
+    wheels.start();
+    int taken = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const int side_pulses = i % 3 == 0 ? 0 : pulses(random);
+        for (std::uint16_t& count : wheels.inputs.tach_count) {
+            count =
+                static_cast<std::uint16_t>(count + side_pulses + (i % 6 == 0 ? 0 : jitter(random)));
+        }
+        rover::Odometer in_general = wheels.odometer;
+        bool moving = false;
+        bool moving_in_general = false;
+        std::int16_t got = 0;
+        std::int16_t expected = 0;
+        rover::side_in_general(in_general, wheels.inputs, 1, moving_in_general, expected);
+        if (!rover::side_in_bytes<1>(wheels.odometer, wheels.inputs, moving, got)) {
+            wheels.odometer = in_general;
+            continue;
+        }
+        ++taken;
+        ASSERT_EQ(got, expected);
+        ASSERT_EQ(moving, moving_in_general);
+        ASSERT_EQ(wheels.odometer.side_count[1], in_general.side_count[1]);
+        for (std::size_t wheel = 1; wheel < 6; wheel += 2) {
+            ASSERT_EQ(wheels.odometer.lead_count[wheel], in_general.lead_count[wheel]);
+            ASSERT_EQ(wheels.odometer.offset_count[wheel], in_general.offset_count[wheel]);
+            ASSERT_EQ(wheels.odometer.drift_count[wheel], in_general.drift_count[wheel]);
+        }
+    }
+    EXPECT_GT(taken, 15000);
+}
+
+TEST(Odometer, AWheelThatComesBackStandsWhereItsSideStands) {
+    Wheels wheels;
+    wheels.start();
+    for (int i = 0; i < 100; ++i) wheels.step(all(1.0));
+    wheels.inputs.tach_present = 0b111011;
+    for (int i = 0; i < 100; ++i) wheels.step({1, 1, 7, 1, 1, 1});
+    wheels.inputs.tach_present = kAll;
+    for (int i = 0; i < 100; ++i) wheels.step(all(1.0));
+    EXPECT_NEAR(wheels.measured_mm(), 300, 0.5);
+    EXPECT_FALSE(rover::tachometers_disagree(wheels.odometer, kAll, wheels.calibration));
+}
+
 TEST(TachometersDisagree, MoreThanFifteenMillimetresInACycleAndClearsTheCounts) {
     for (const double off_mm : {-15.5, -14.5, 14.5, 15.5}) {
         for (std::size_t wheel = 0; wheel < 6; ++wheel) {
@@ -201,7 +251,7 @@ TEST(Median3, IsTheMiddleOneInEveryOrder) {
     do {
         EXPECT_EQ(rover::median3(values[0], values[1], values[2]), 3);
     } while (std::next_permutation(values.begin(), values.end()));
-    EXPECT_EQ(rover::median3(4, 4, -9), 4);
+    EXPECT_EQ(rover::median3(std::int16_t{4}, std::int16_t{4}, std::int16_t{-9}), 4);
 }
 
 }  // namespace

@@ -133,8 +133,8 @@ void check_roots(Inputs& inputs, Checksum& sum) {
 void check_angles(Inputs& inputs, Checksum& sum) {
     const auto a = inputs.next<int16_t>();
     const auto b = inputs.next<int16_t>();
-    sum.add(sine_q15(a));
-    sum.add(cosine_q15(a));
+    sum.add(sine_q14(a));
+    sum.add(cosine_q14(a));
     sum.add(atan2_brad(a, b));
 }
 

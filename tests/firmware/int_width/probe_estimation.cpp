@@ -15,8 +15,8 @@ using namespace rover;
 int16_t ground_q4_mm(uint16_t place_q6_bin) {
     const auto angle = narrow_wrap_s16(mul_wrap(place_q6_bin, uint16_t{50}));
     const auto steep = narrow_wrap_s16(mul_wrap(place_q6_bin, uint16_t{150}));
-    return add_wrap(mul_q15_sat(sine_q15(angle), int16_t{900}),
-                    mul_q15_sat(sine_q15(steep), int16_t{300}));
+    return add_wrap(mul_q15_sat(sine_q14(angle), int16_t{1800}),
+                    mul_q15_sat(sine_q14(steep), int16_t{600}));
 }
 
 int16_t rise_q4_mm(uint16_t place, uint16_t distance) {

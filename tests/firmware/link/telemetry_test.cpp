@@ -76,6 +76,19 @@ TEST(Telemetry, FrameIsTheOneWrittenByHand) {
     EXPECT_EQ(rover::kTelemetryPayloadSize, 44);
 }
 
+// The payload is the bytes of the estimates where structs have no padding.
+TEST(Telemetry, VisitsTheFieldsInTheOrderOfTheirDeclarations) {
+    rover::Estimates estimates;
+    const void* last = nullptr;
+    std::size_t bytes = 0;
+    rover::for_each_field(estimates, [&](const auto& field) {
+        EXPECT_GT(static_cast<const void*>(&field), last) << "field at byte " << bytes;
+        last = &field;
+        bytes += sizeof field;
+    });
+    EXPECT_EQ(bytes, rover::kTelemetryPayloadSize);
+}
+
 TEST(Telemetry, EveryWrongBitIsRefusedAndNothingIsTouched) {
     Frame frame = {};
     rover::write_telemetry(sample(), frame);

@@ -72,8 +72,8 @@ constexpr U32 functions(S16 a, S16 b) {
     ring.push(a);
     ring.push(b);
     U32 sum = fold(U32{0}, ring.at(U8{3}));
-    sum = fold(sum, sine_q15(a));
-    sum = fold(sum, cosine_q15(b));
+    sum = fold(sum, sine_q14(a));
+    sum = fold(sum, cosine_q14(b));
     sum = fold(sum, atan2_brad(a, b));
     sum = fold(sum, isqrt(narrow_wrap_u16(a)));
     sum = fold(sum, isqrt(widen_u32(narrow_wrap_u16(b))));

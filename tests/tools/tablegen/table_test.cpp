@@ -46,10 +46,11 @@ TEST(FirmwareTables, AreAllOfTheirFolders) {
 // atan 1/2 = 26.565051 deg.
 TEST(SineTable, HoldsTheKnownValues) {
     const auto values = tablegen::sine_table().values;
-    ASSERT_EQ(values.size(), 257u);
+    ASSERT_EQ(values.size(), 130u);
     EXPECT_EQ(values[0], 0);
-    EXPECT_EQ(values[128], 46341);  // 65536 * 0.70710678 = 46340.95
-    EXPECT_EQ(values[256], 65535);  // saturated
+    EXPECT_EQ(values[64], 11585);   // 16384 * 0.70710678 = 11585.24
+    EXPECT_EQ(values[128], 16383);  // saturated
+    EXPECT_EQ(values[129], 16383);
 }
 
 TEST(ArctangentTable, HoldsTheKnownValues) {
