@@ -332,8 +332,7 @@ private:
         const double leaving = block_facts_.edge_probability[second];
         std::vector<CodeItem> items = decision.coder.items;
         double cost = decision.coder.cost;
-        const Condition condition =
-            second == 0 ? decision.condition : inverse(decision.condition);
+        const Condition condition = second == 0 ? decision.condition : inverse(decision.condition);
         items.push_back(jump_item(jump_if(condition), labels[second]));
         cost += 7 + 3 * leaving + 3 * setting_.byte_cost;
         items.push_back(label_item(labels[first]));
@@ -356,8 +355,7 @@ private:
         const double leaving = block_facts_.edge_probability[outside];
         std::vector<CodeItem> items = decision.coder.items;
         double cost = decision.coder.cost;
-        const Condition condition =
-            outside == 0 ? decision.condition : inverse(decision.condition);
+        const Condition condition = outside == 0 ? decision.condition : inverse(decision.condition);
         items.push_back(jump_item(jump_if(condition), labels[outside]));
         cost += 7 + 3 * leaving + 3 * setting_.byte_cost;
         items.push_back(label_item(labels[inside]));
@@ -392,6 +390,7 @@ private:
         coder.forget(static_cast<RegisterSet>(set_of(Register::a) | set_of(Pair::hl)));
         coder.release();
         std::vector<CodeItem> items = coder.items;
+        if (!items.empty()) items.back().reads = set_of(Register::a) | set_of(Pair::hl);
         std::vector<CodeItem> cold;
         double cost = coder.cost + 80;  // of __jumpindex
         items.push_back(label_item(table));
