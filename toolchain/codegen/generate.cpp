@@ -8,6 +8,7 @@
 
 #include "toolchain/codegen/cleanup.hpp"
 #include "toolchain/codegen/homes.hpp"
+#include "toolchain/codegen/merge_tails.hpp"
 #include "toolchain/codegen/peephole.hpp"
 #include "toolchain/isa/instruction_set.hpp"
 
@@ -103,6 +104,10 @@ private:
         for (const Register which : facts_.function.result_registers) at_return |= set_of(which);
         clean_up(code_.items, code_.frame_bytes, at_return);
         improve(code_.items);
+        if (options_.byte_cost > 0) {
+            merge_tails(code_.items, next_label_);
+            improve(code_.items);
+        }
         is_clean_ = true;
     }
 
