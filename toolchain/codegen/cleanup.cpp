@@ -291,6 +291,7 @@ private:
             return;
         }
         const auto target = static_cast<Register>(to);
+        if (target == Register::a && subtract_from_borrow(item)) return;
         if (known_->in(target) == value) return drop();
         if (known_->find(value, set_of(target))) return move_from(target, value);
         if (item.operand.kind == CodeOperand::Kind::number && dead(kSign)) {
@@ -304,6 +305,21 @@ private:
             }
         }
         join_halves(item, to);
+    }
+
+    // MVI A,0; SBB x is SBB A; SUB x if nobody wants the borrow: 0 or FFH, less x.
+    bool subtract_from_borrow(const CodeItem& item) {
+        constexpr uint8_t kSbbA = 0x9F, kSbb = 0x98, kSub = 0x90;
+        const std::size_t next = next_instruction();
+        const bool zero =
+            item.operand.kind == CodeOperand::Kind::number && (item.operand.offset & 0xFF) == 0;
+        if (!zero || next == items_.size()) return false;
+        const uint8_t second = items_[next].opcode;
+        if ((second & 0xF8U) != kSbb || second == kSbbA) return false;
+        if ((live_[next].registers & kCarry) != 0) return false;
+        become(kSbbA);
+        items_[next].opcode = static_cast<uint8_t>(kSub | (second & 7U));
+        return true;
     }
 
     // MVI of both halves is LXI.
