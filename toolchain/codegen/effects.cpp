@@ -28,12 +28,14 @@ void use(Effects& effects, unsigned which, bool reads, bool writes) {
                                      : MemoryAccess::write;
 }
 
+// The undocumented flags do not count.
 ResourceSet flags_written(uint8_t opcode) {
-    constexpr uint8_t kCarryOnly = isa::flag::kCarry;
+    constexpr uint8_t kSignFlags =
+        isa::flag::kSign | isa::flag::kZero | isa::flag::kAuxiliaryCarry | isa::flag::kParity;
     const uint8_t flags = isa::instruction(opcode).flags;
     ResourceSet set = 0;
-    if ((flags & kCarryOnly) != 0) set |= kCarry;
-    if ((flags & static_cast<uint8_t>(~kCarryOnly)) != 0) set |= kSign;
+    if ((flags & isa::flag::kCarry) != 0) set |= kCarry;
+    if ((flags & kSignFlags) != 0) set |= kSign;
     return set;
 }
 
