@@ -314,29 +314,62 @@ private:
     void arrange(const Candidate& candidate, const Decision& decision, const Targets& targets) {
         const std::array<EdgeCode, 2> edges{edge_code(decision.coder, 0),
                                             edge_code(decision.coder, 1)};
-        const std::array<uint32_t, 2> labels{targets.label_true, targets.label_false};
         for (const std::size_t inside : {std::size_t{0}, std::size_t{1}}) {
-            const std::size_t outside = 1 - inside;
-            const double leaving = block_facts_.edge_probability[outside];
-            std::vector<CodeItem> items = decision.coder.items;
-            double cost = decision.coder.cost;
-            const Condition condition =
-                outside == 0 ? decision.condition : inverse(decision.condition);
-            items.push_back(jump_item(jump_if(condition), labels[outside]));
-            cost += 7 + 3 * leaving + 3 * setting_.byte_cost;
-            items.push_back(label_item(labels[inside]));
-            items.insert(items.end(), edges[inside].items.begin(), edges[inside].items.end());
-            // Edge costs hold both T-states and bytes; bytes are there whether it is taken or not,
-            // but a rarely taken edge is cheap all the same.
-            cost += edges[inside].cost * (1 - leaving) + edges[outside].cost * leaving;
-            append_jump(items, cost, block_.terminator.edges[inside].target, 1 - leaving);
-            std::vector<CodeItem> cold;
-            cold.push_back(label_item(labels[outside]));
-            cold.insert(cold.end(), edges[outside].items.begin(), edges[outside].items.end());
-            cold.push_back(jump_item(op::kJmp, label_of(block_.terminator.edges[outside].target)));
-            if (!edges[outside].empty) cost += leaving * 10 + 3 * setting_.byte_cost;
-            offer(candidate, std::move(items), std::move(cold), cost);
+            part(candidate, decision, targets, edges, inside);
+            meet(candidate, decision, targets, edges, inside);
         }
+    }
+
+    // Both edges lead to the same block: the one that falls through stands in front of the other,
+    // which goes on into the block. An empty one in front is nothing but the jump.
+    void meet(const Candidate& candidate, const Decision& decision, const Targets& targets,
+              const std::array<EdgeCode, 2>& edges, std::size_t first) {
+        const std::size_t second = 1 - first;
+        const BlockId target = block_.terminator.edges[0].target;
+        if (block_.terminator.edges[1].target != target) return;
+        if (edges[first].empty && !edges[second].empty) return;  // the other way round is shorter
+        const std::array<uint32_t, 2> labels{targets.label_true, targets.label_false};
+        const double leaving = block_facts_.edge_probability[second];
+        std::vector<CodeItem> items = decision.coder.items;
+        double cost = decision.coder.cost;
+        const Condition condition = second == 0 ? decision.condition : inverse(decision.condition);
+        items.push_back(jump_item(jump_if(condition), labels[second]));
+        cost += 7 + 3 * leaving + 3 * setting_.byte_cost;
+        items.push_back(label_item(labels[first]));
+        items.insert(items.end(), edges[first].items.begin(), edges[first].items.end());
+        cost += edges[first].cost * (1 - leaving) + edges[second].cost * leaving;
+        if (!edges[second].empty) {
+            items.push_back(jump_item(op::kJmp, label_of(target)));
+            cost += (1 - leaving) * 10 + 3 * setting_.byte_cost;
+        }
+        items.push_back(label_item(labels[second]));
+        items.insert(items.end(), edges[second].items.begin(), edges[second].items.end());
+        append_jump(items, cost, target, edges[second].empty ? 1 : leaving);
+        offer(candidate, std::move(items), {}, cost);
+    }
+
+    void part(const Candidate& candidate, const Decision& decision, const Targets& targets,
+              const std::array<EdgeCode, 2>& edges, std::size_t inside) {
+        const std::array<uint32_t, 2> labels{targets.label_true, targets.label_false};
+        const std::size_t outside = 1 - inside;
+        const double leaving = block_facts_.edge_probability[outside];
+        std::vector<CodeItem> items = decision.coder.items;
+        double cost = decision.coder.cost;
+        const Condition condition = outside == 0 ? decision.condition : inverse(decision.condition);
+        items.push_back(jump_item(jump_if(condition), labels[outside]));
+        cost += 7 + 3 * leaving + 3 * setting_.byte_cost;
+        items.push_back(label_item(labels[inside]));
+        items.insert(items.end(), edges[inside].items.begin(), edges[inside].items.end());
+        // Edge costs hold both T-states and bytes; bytes are there whether it is taken or not,
+        // but a rarely taken edge is cheap all the same.
+        cost += edges[inside].cost * (1 - leaving) + edges[outside].cost * leaving;
+        append_jump(items, cost, block_.terminator.edges[inside].target, 1 - leaving);
+        std::vector<CodeItem> cold;
+        cold.push_back(label_item(labels[outside]));
+        cold.insert(cold.end(), edges[outside].items.begin(), edges[outside].items.end());
+        cold.push_back(jump_item(op::kJmp, label_of(block_.terminator.edges[outside].target)));
+        if (!edges[outside].empty) cost += leaving * 10 + 3 * setting_.byte_cost;
+        offer(candidate, std::move(items), std::move(cold), cost);
     }
 
     void finish_table(const Candidate& candidate) {
@@ -357,6 +390,7 @@ private:
         coder.forget(static_cast<RegisterSet>(set_of(Register::a) | set_of(Pair::hl)));
         coder.release();
         std::vector<CodeItem> items = coder.items;
+        if (!items.empty()) items.back().reads = set_of(Register::a) | set_of(Pair::hl);
         std::vector<CodeItem> cold;
         double cost = coder.cost + 80;  // of __jumpindex
         items.push_back(label_item(table));

@@ -305,6 +305,11 @@ private:
             result.assign(end.edges.size(),
                           end.edges.empty() ? 1 : 1.0 / static_cast<double>(end.edges.size()));
             if (end.kind != Terminator::Kind::branch) continue;
+            if (end.edges[0].probability >= 0) {
+                result = {end.edges[0].probability, end.edges[1].probability};
+                continue;
+            }
+            if (end.edges[0].target == end.edges[1].target) continue;
             const double own = std::max(blocks()[index].frequency, 1e-9);
             for (std::size_t i = 0; i < 2; ++i) {
                 const BlockId target = end.edges[i].target;

@@ -6,7 +6,9 @@
 #include <map>
 #include <set>
 
+#include "toolchain/codegen/cleanup.hpp"
 #include "toolchain/codegen/homes.hpp"
+#include "toolchain/codegen/merge_tails.hpp"
 #include "toolchain/codegen/peephole.hpp"
 #include "toolchain/isa/instruction_set.hpp"
 
@@ -50,11 +52,12 @@ public:
         if (jump_index != module_.symbol_ids.end()) homes.jump_index = jump_index->second;
         lay_out(make_blocks(facts_, homes));
         improve(code_.items);
+        clean();
         find_clobbers();
         count_stack();
         frame_stack_variables();
         frame_interrupt();
-        allocate_frame();
+        if (!is_clean_) allocate_frame();
         return std::move(code_);
     }
 
@@ -90,6 +93,22 @@ private:
             const std::vector<CodeItem>& cold = blocks.blocks[block].cold;
             items.insert(items.end(), cold.begin(), cold.end());
         }
+    }
+
+    // Slots have their places then. A function that is entered again while it is active keeps its
+    // variables elsewhere.
+    void clean() {
+        if (facts_.function.recursive || facts_.function.stack_bytes != 0) return;
+        allocate_frame();
+        RegisterSet at_return = 0;
+        for (const Register which : facts_.function.result_registers) at_return |= set_of(which);
+        clean_up(code_.items, code_.frame_bytes, at_return);
+        improve(code_.items);
+        if (options_.byte_cost > 0) {
+            merge_tails(code_.items, next_label_);
+            improve(code_.items);
+        }
+        is_clean_ = true;
     }
 
     // -- What it changes -------------------------------------------------------------------------
@@ -386,6 +405,7 @@ private:
     FunctionFacts facts_;
     FunctionCode code_;
     uint32_t next_label_ = 0;
+    bool is_clean_ = false;
     std::vector<const Operation*> indirect_;
 };
 

@@ -49,6 +49,8 @@ struct CodeItem {
     CodeOperand operand{};
     uint32_t file = UINT32_MAX;  ///< index into Module::files
     uint32_t line = 0;
+    RegisterSet reads = 0;   ///< of a call: registers with arguments
+    RegisterSet writes = 0;  ///< of a call: results and what it destroys
 };
 
 /// A call from a function.

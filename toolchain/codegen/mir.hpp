@@ -111,6 +111,7 @@ struct Operation {
 struct Edge {
     BlockId target = kNone;
     Bytes arguments{};
+    double probability = -1;  ///< of a branch: that it is taken, if it is known
 };
 
 /// How a block ends.

@@ -123,6 +123,14 @@ CodeOperand symbol_operand(SymbolId symbol) {
     return {CodeOperand::Kind::symbol, CodeOperand::Part::word, symbol, 0};
 }
 
+void emit_call(Coder& coder, const Operation& operation, RegisterSet destroyed) {
+    coder.emit(op::kCall, symbol_operand(operation.symbol));
+    if (coder.only_cost) return;
+    CodeItem& item = coder.items.back();
+    for (const Register which : operation.argument_registers) item.reads |= set_of(which);
+    item.writes = destroyed;
+}
+
 /// Pairs whose values live on behind the call and have no other place.
 std::vector<Pair> pairs_at_risk(const Coder& coder, RegisterSet destroyed) {
     std::vector<Pair> result;
@@ -154,7 +162,7 @@ void call_with_slots(Coder& coder, const Operation& operation, RegisterSet destr
             coder.failed = true;
         }
     }
-    coder.emit(op::kCall, symbol_operand(operation.symbol));
+    emit_call(coder, operation, destroyed);
     finish_call(coder, operation, destroyed);
 }
 
@@ -193,7 +201,7 @@ void call_with_stack(Coder& coder, const Operation& operation, RegisterSet destr
         }
         if (!pushed) coder.failed = true;
     }
-    coder.emit(op::kCall, symbol_operand(operation.symbol));
+    emit_call(coder, operation, destroyed);
     finish_call(coder, operation, destroyed);
     for (auto at = kept.rbegin(); at != kept.rend(); ++at) {
         coder.emit(by_pair(op::kPop, at->first));
@@ -229,7 +237,7 @@ void call_that_reenters(Coder& coder, const Operation& operation) {
         coder.failed = true;
         return;
     }
-    coder.emit(op::kCall, symbol_operand(operation.symbol));
+    emit_call(coder, operation, kAllRegisters);
     finish_call(coder, operation, kAllRegisters);
     coder.state.in_slot = Bits(coder.block().relevant.size());  // the frame was used again
     if (saved.empty()) return;

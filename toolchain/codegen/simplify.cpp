@@ -198,12 +198,74 @@ void drop_unneeded(Function& function) {
     }
 }
 
+/// Branches keep how likely their edges are when the block that tells it disappears.
+void keep_probabilities(Function& function) {
+    std::vector<uint32_t> entered(function.blocks.size(), 0);
+    for (const Block& block : function.blocks) {
+        for (const Edge& edge : block.terminator.edges) ++entered[edge.target];
+    }
+    for (Block& block : function.blocks) {
+        Terminator& end = block.terminator;
+        if (end.kind != Terminator::Kind::branch) continue;
+        const double own = std::max(block.frequency, 1e-9);
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (entered[end.edges[i].target] != 1) continue;
+            const double share = function.blocks[end.edges[i].target].frequency / own;
+            end.edges[i].probability = std::clamp(share, 0.001, 0.999);
+            end.edges[1 - i].probability = 1 - end.edges[i].probability;
+            break;
+        }
+    }
+}
+
+/// Does nothing but go on, with values from in front of it?
+bool is_passage(const Function& function, BlockId index) {
+    const Block& block = function.blocks[index];
+    return index != 0 && block.operations.empty() && block.parameters.empty() &&
+           block.loop_bound == 0 && block.terminator.kind == Terminator::Kind::jump &&
+           block.terminator.edges[0].target != index;
+}
+
+void drop_blocks(Function& function, const std::vector<bool>& dropped) {
+    std::vector<BlockId> number(function.blocks.size());
+    std::vector<Block> kept;
+    for (BlockId index = 0; index < function.blocks.size(); ++index) {
+        number[index] = static_cast<BlockId>(kept.size());
+        if (!dropped[index]) kept.push_back(std::move(function.blocks[index]));
+    }
+    function.blocks = std::move(kept);
+    for (Block& block : function.blocks) {
+        for (Edge& edge : block.terminator.edges) edge.target = number[edge.target];
+    }
+}
+
+/// What enters a block without operations goes to its successor at once: the code of both edges
+/// of a branch can then meet without a block between.
+void drop_passages(Function& function) {
+    std::vector<bool> dropped(function.blocks.size(), false);
+    for (BlockId index = 0; index < function.blocks.size(); ++index) {
+        if (!is_passage(function, index)) continue;
+        const Edge onward = function.blocks[index].terminator.edges[0];
+        for (Block& block : function.blocks) {
+            for (Edge& edge : block.terminator.edges) {
+                if (edge.target != index) continue;
+                edge.target = onward.target;
+                edge.arguments = onward.arguments;
+            }
+        }
+        dropped[index] = true;
+    }
+    drop_blocks(function, dropped);
+}
+
 }  // namespace
 
 void simplify(Function& function) {
     intern_constants(function);
     shrink_comparisons(function);
     drop_unneeded(function);
+    keep_probabilities(function);
+    drop_passages(function);
 }
 
 }  // namespace toolchain::codegen

@@ -11,6 +11,7 @@
 
 #include "toolchain/asm/parse.hpp"
 #include "toolchain/asm/print.hpp"
+#include "toolchain/asm/replace.hpp"
 #include "toolchain/asm/verify.hpp"
 #include "toolchain/driver/front_end.hpp"
 #include "toolchain/driver/join.hpp"
@@ -227,13 +228,19 @@ private:
     std::vector<std::string> roots_;
 };
 
-std::vector<assembly::Module> runtime_modules() {
+std::vector<assembly::Module> parsed(std::span<const Resource> files) {
     std::vector<assembly::Module> modules;
-    for (const Resource& file : runtime_files()) {
+    for (const Resource& file : files) {
         modules.push_back(assembly::parse(
             file.text, {.file = std::string(file.name), .origin = {}, .routine_comments = true}));
         modules.back().name = file.name;
     }
+    return modules;
+}
+
+std::vector<assembly::Module> runtime_modules(const Request& request) {
+    std::vector<assembly::Module> modules = parsed(runtime_files());
+    if (request.small_runtime) assembly::replace_sections(modules, parsed(small_files()));
     return modules;
 }
 
@@ -263,7 +270,8 @@ codegen::Compiled generate(const Request& request, codegen::Module module,
             options.roots.push_back(root);
         }
     }
-    codegen::Compiled compiled = codegen::compile(std::move(module), runtime_modules(), options);
+    codegen::Compiled compiled =
+        codegen::compile(std::move(module), runtime_modules(request), options);
     add_titles(compiled.module);
     return compiled;
 }
@@ -301,7 +309,9 @@ assembly::Program link_program(const Request& request, codegen::Compiled& compil
                                const std::vector<std::string>& roots) {
     std::vector<assembly::Module> modules;
     modules.push_back(std::move(compiled.module));
-    for (assembly::Module& module : runtime_modules()) modules.push_back(std::move(module));
+    for (assembly::Module& module : runtime_modules(request)) {
+        modules.push_back(std::move(module));
+    }
     assembly::Program program =
         assembly::link(std::move(modules), link_options(request, compiled, roots));
     const auto problems = assembly::verify(program, {.allow_undocumented = request.undocumented});

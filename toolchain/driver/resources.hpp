@@ -15,6 +15,9 @@ struct Resource {
 /// The runtime routines, *.s85.
 [[nodiscard]] std::span<const Resource> runtime_files();
 
+/// Those that are small instead of fast, small/*.s85.
+[[nodiscard]] std::span<const Resource> small_files();
+
 /// Headers that programs may include: i85.h, string.h.
 [[nodiscard]] std::span<const Resource> include_files();
 

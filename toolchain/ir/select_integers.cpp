@@ -203,8 +203,13 @@ Bytes Selector::select_cast(const llvm::CastInst& cast) {
         case llvm::Instruction::IntToPtr:
         case llvm::Instruction::BitCast:
             return builder_.zero_extended(bytes, size);
-        case llvm::Instruction::PtrToInt:
         case llvm::Instruction::Trunc:
+            // What is cut off is 0, as for a bool from memory: nothing to mask.
+            if (llvm::cast<llvm::TruncInst>(cast).hasNoUnsignedWrap()) {
+                return builder_.zero_extended(bytes, size);
+            }
+            [[fallthrough]];
+        case llvm::Instruction::PtrToInt:
             return masked(builder_.zero_extended(bytes, size), bits_of(cast));
         case llvm::Instruction::SExt:
             return masked(sign_from(bytes, bits_of(*cast.getOperand(0)), size), bits_of(cast));

@@ -24,6 +24,7 @@ beside it OUT.bin, .map, .lst, .sym. Needs clang-19 (on PATH, or I85CC_CLANG).
   --cpu=8085u          the undocumented ones are allowed; no code is made with them yet
   --allow-recursion    functions may call themselves; slower, and the stack has no known bound
   --no-constructors    refuse static objects that are constructed at run time
+  --small-runtime      smaller, slower routines for products and quotients of words
   --separate           each source behind it is optimised as a module of its own
   --keep NAME          keep a function or variable that main does not reach; may be repeated
   --rom FIRST-LAST     addresses of ROM (default 0-7FFFH)
@@ -113,6 +114,7 @@ private:
             Flag{"--cpu=8085u", &request.undocumented},
             Flag{"--allow-recursion", &request.allow_recursion},
             Flag{"--no-constructors", &request.allow_constructors, false},
+            Flag{"--small-runtime", &request.small_runtime, true},
             Flag{"--separate", &separate_},
             Flag{"--report", &options_.report},
             Flag{"--time", &options_.times},

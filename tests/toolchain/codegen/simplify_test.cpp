@@ -39,6 +39,42 @@ TEST_F(Simplify, UnusedResultsDisappear) {
     EXPECT_TRUE(give_back(x).empty());
 }
 
+// x == 0 goes through an empty block: both edges lead to the same block, with what they bring.
+TEST_F(Simplify, EmptyBlocksDisappearAndLeaveTheirProbability) {
+    function.blocks.resize(3);
+    const Bytes parameter = builder.parameter(1);
+    function.blocks[2].parameters = parameter;
+    function.blocks[2].parameter_sizes = {1};
+    function.blocks[1].frequency = 0.25;
+    Terminator branch;
+    branch.kind = Terminator::Kind::branch;
+    branch.predicate = Predicate::equal;
+    branch.left = {x[0]};
+    branch.right = builder.constant(0, 1);
+    branch.edges = {{1, {}}, {2, {x[1]}}};
+    builder.terminate(branch);
+    builder.set_block(1);
+    Terminator jump;
+    jump.kind = Terminator::Kind::jump;
+    jump.edges = {{2, {x[2]}}};
+    builder.terminate(jump);
+    builder.set_block(2);
+    Terminator end;
+    end.kind = Terminator::Kind::give_back;
+    end.left = parameter;
+    function.result_size = 1;
+    builder.terminate(end);
+    simplify(function);
+    ASSERT_EQ(function.blocks.size(), 2U);
+    const std::vector<Edge>& edges = function.blocks[0].terminator.edges;
+    EXPECT_EQ(edges[0].target, 1U);
+    EXPECT_EQ(edges[1].target, 1U);
+    EXPECT_EQ(edges[0].arguments, Bytes{x[2]});
+    EXPECT_EQ(edges[1].arguments, Bytes{x[1]});
+    EXPECT_DOUBLE_EQ(edges[0].probability, 0.25);
+    EXPECT_DOUBLE_EQ(edges[1].probability, 0.75);
+}
+
 TEST_F(Simplify, EffectsStay) {
     const Bytes place = builder.address(module.intern("v"), 0);
     (void)builder.load(place, 1, true);

@@ -28,6 +28,12 @@ struct Registers {
     [[nodiscard]] uint32_t dehl() const { return static_cast<uint32_t>(de) << 16 | hl; }
 };
 
+#ifdef ROVER_SMALL_RUNTIME
+inline constexpr bool kSmall = true;  ///< the routines of toolchain/runtime/small
+#else
+inline constexpr bool kSmall = false;
+#endif
+
 /// DE:HL = value.
 [[nodiscard]] Registers with_dehl(uint32_t value);
 
@@ -42,6 +48,8 @@ struct Routine {
     std::vector<std::string> calls;
     unsigned best_t = 0;  ///< T-states, RET included and CALL not
     unsigned worst_t = 0;
+    bool is_small = false;  ///< of toolchain/runtime/small
+    bool is_stated = true;  ///< false: it calls a small routine, and is not one itself
 };
 
 /// All routines in the memory of one machine.
@@ -67,6 +75,7 @@ public:
     [[nodiscard]] host_sim::FlatMemory& memory() { return machine_.memory; }
 
 private:
+    void take_small();
     void read_blocks(std::string_view text);
     void place();
 
