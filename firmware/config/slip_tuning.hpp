@@ -13,8 +13,9 @@ namespace rover::slip {
 inline constexpr uint8_t kBinMm = 25;
 inline constexpr uint8_t kNodeCount = 32;         ///< ring of surface heights: 80 cm of ground
 inline constexpr uint8_t kKnownNodes = 21;        ///< 0 to 50 cm: what a start from a ramp needs
-inline constexpr uint8_t kHalfBinCandidates = 9;  ///< 0 to 10 cm ahead in steps of 1.25 cm
-inline constexpr uint16_t kReachQ6Bin = 256;      ///< 10 cm
+inline constexpr uint8_t kHalfBinCandidates = 9;  ///< around the expected place, 1.25 cm apart
+inline constexpr uint16_t kBeyondQ6Bin = 160;     ///< last candidate beyond the expected place
+inline constexpr uint16_t kReachQ6Bin = 256;      ///< 10 cm: a longer cycle is not matched
 inline constexpr uint16_t kGapMaxQ6Bin = 640;     ///< 25 cm: a longer hole is not bridged
 inline constexpr uint16_t kMiddleMinQ6Bin = 64;   ///< 2.5 cm
 inline constexpr uint16_t kMiddleMaxQ6Bin = 704;  ///< 27.5 cm
@@ -30,12 +31,17 @@ inline constexpr uint16_t kSigmaFloorQ8Mm = 26;      ///< 0.10 mm
 inline constexpr uint8_t kWidenPerCostQ8 = 179;      ///< 0.70
 inline constexpr uint16_t kWidenMaxQ8 = 768;         ///< 3.0
 inline constexpr int16_t kMisfitMaxQ4Mm = 2047;      ///< 128 mm: beyond, misfits are all the same
-inline constexpr uint16_t kCostCapQ6 = 1024;         ///< 16
+inline constexpr uint8_t kScaleMax = 7;              ///< sigma of 16 mm / 2^7 = 0.125 mm at least
+/// Roughness from which on sigma counts as 16 mm (64 mm / sqrt 2 / 1.04, over what widens it), by
+/// quarters of the running cost.
+inline constexpr uint8_t kRoughOf16MmQ1[17] = {87, 87, 87, 87, 87, 87, 76, 66, 58,
+                                               52, 47, 43, 40, 37, 34, 32, 31};
+inline constexpr uint8_t kCostCapQ3 = 128;           ///< 16
 inline constexpr uint16_t kReacquireCostQ10 = 4096;  ///< 4: above it matching has failed
 inline constexpr uint16_t kTrackingCostQ10 = 1365;   ///< 4/3: below it lock is back
 inline constexpr uint16_t kAfterLossCostQ10 = 2048;  ///< 2: running cost restarts here
 inline constexpr uint16_t kInitialCostQ10 = 1024;    ///< 1
-inline constexpr uint16_t kCredibleFitQ6 = 1600;     ///< 25: five sigma at the edge is no match
+inline constexpr uint8_t kCredibleFitQ3 = 200;       ///< 25: five sigma at the edge is no match
 
 // -- Learned prior --------------------------------------------------------------------------------
 inline constexpr int16_t kMeanNoSlipQ12Bin = 9830;     ///< 6.0 cm
@@ -48,19 +54,16 @@ inline constexpr uint8_t kLearnGainQ8[kLearnSteps + 1] = {
 
 // -- Roughness ------------------------------------------------------------------------------------
 inline constexpr uint16_t kInitialRoughQ8Mm = 768;  ///< 3 mm
-inline constexpr uint16_t kRoughMaxQ8Mm = 32767;    ///< 128 mm
+inline constexpr uint16_t kBendMaxQ4Mm = 2047;      ///< 128 mm
+inline constexpr uint16_t kRoughMaxQ8Mm = kBendMaxQ4Mm * 16u;
 
 // -- Sinkage --------------------------------------------------------------------------------------
-inline constexpr uint8_t kSampleCount = 24;
-inline constexpr uint8_t kSampleRing = 32;       ///< power of two that holds them
-inline constexpr uint16_t kMergeQ6Bin = 51;      ///< 2.0 cm
-inline constexpr uint16_t kLookNoiseQ8Mm = 420;  ///< 0.82 x 2 mm
-inline constexpr uint8_t kLookPerRoughQ8 = 77;   ///< 0.30
-inline constexpr uint8_t kSmoothedShareQ8 = 97;  ///< 0.378 = sqrt(gain / (2 - gain)), gain 1/4
-inline constexpr uint8_t kBelieveQ8 = 164;       ///< 0.64 = 2/pi: mean |v| to mean square
-inline constexpr uint16_t kBelieveNoneQ8 = 320;  ///< noise beyond 1.25 x signal: believe nothing
-inline constexpr uint8_t kSmoothSteps = 3;
-inline constexpr uint8_t kSmoothGainQ8[kSmoothSteps + 1] = {255, 128, 85, 64};
+inline constexpr uint8_t kSampleReach = 31;      ///< bins ahead of the front wheel's
+inline constexpr uint8_t kSearchBins = 8;        ///< 20 cm: no sample so far ahead is waited for
+inline constexpr uint16_t kSpanMaxQ8Bin = 4096;  ///< 40 cm between samples: nothing is known
+inline constexpr int16_t kRawMaxQ4Mm = 16383;    ///< 1 m
+inline constexpr uint8_t kNoiseFloorQ4Mm = 10;   ///< 0.378 x 0.82 x 2 mm
+inline constexpr uint16_t kSizeMaxQ5Mm = 511;    ///< 16 mm
 inline constexpr uint8_t kSizeSteps = 31;
 /// 256 / (n + 1), n = 0 ... 31.
 inline constexpr uint8_t kSizeGainQ8[kSizeSteps + 1] = {
@@ -68,6 +71,9 @@ inline constexpr uint8_t kSizeGainQ8[kSizeSteps + 1] = {
     15,  14,  13, 13, 12, 12, 11, 11, 10, 10, 9,  9,  9,  9,  8,  8};
 
 // -- Position uncertainty -------------------------------------------------------------------------
+inline constexpr uint16_t kSpreadStepQ6Bin = 8;          ///< 3.1 mm
+inline constexpr uint8_t kSpreadStepsMax = 2;            ///< a cycle
+inline constexpr uint16_t kSpreadMaxQ6Bin = 4000;        ///< 1.6 m; 16 times that fit in a word
 inline constexpr uint32_t kDriftPerLossQ12Bin = 8192;    ///< 5 cm for each loss of lock
 inline constexpr uint32_t kDriftPerMoveQ12Bin = 4096;    ///< 2.5 cm when moved by hand
 inline constexpr uint32_t kDriftPerTurnQ12Bin = 819;     ///< 0.5 cm per turning cycle

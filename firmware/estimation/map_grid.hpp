@@ -23,7 +23,9 @@ constexpr bool can_match(MapGrid& map, const MapGridInput& input) {
     if (input.odometer_q6_bin < S16{0} || input.odometer_q6_bin > S16{kReachQ6Bin}) return false;
     if (ahead_of(map.lowest_q6_bin, map.place_q6_bin) < S16{0}) return false;
     const U16 middle = add_wrap(map.place_q6_bin, input.middle_distance_q6_bin);
-    const U16 needed = add_wrap(middle, U16{kReachQ6Bin + 2 * 64});
+    // The expected advance is the odometer's at most; with the nodes around the last candidate.
+    const U16 reach = add_wrap(narrow_wrap_u16(input.odometer_q6_bin), U16{kBeyondQ6Bin + 64});
+    const U16 needed = add_wrap(middle, reach);
     return ahead_of(needed, add_wrap(map.front_place_q6_bin, U16{64})) >= S16{0};
 }
 
@@ -67,14 +69,16 @@ constexpr bool usable_linkage(const MapGridInput& input) {
 /// Takes the new heights into the map, or starts a new one where the old does not reach.
 constexpr void update_map(MapGrid& map, const MapGridInput& input) {
     const U16 front = add_wrap(map.place_q6_bin, input.front_distance_q6_bin);
+    S16 rear_height_q4_mm{0};
     if (map.has_map && ahead_of(map.front_place_q6_bin, front) > S16{kGapMaxQ6Bin}) drop_map(map);
     if (!map.has_map) {
-        begin_map(map, input);
-        look_ahead(map, input, S16{0});
-        return;
+        begin_map(map, input, front);
+    } else if (ahead_of(map.lowest_q6_bin, map.place_q6_bin) < S16{0}) {
+        return;  // still behind the map
+    } else {
+        rear_height_q4_mm = extend_map(map, input, front);
     }
-    if (ahead_of(map.lowest_q6_bin, map.place_q6_bin) < S16{0}) return;  // still behind the map
-    look_ahead(map, input, extend_map(map, input));
+    look_ahead(map, input, rear_height_q4_mm, front);
 }
 
 constexpr void step_forward(MapGrid& map, const MapGridInput& input) {

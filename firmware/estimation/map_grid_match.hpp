@@ -2,7 +2,7 @@
 //                      squares by table look-up over nine places, then a parabola.
 // Depends on   map_grid_surface.hpp, square_table.hpp.
 // Source       Wilcox 1994, step 2 (two terms: middle wheel and prior), on half bins.
-// Bounds       6 residuals, 9 candidates.
+// Bounds       5 residuals, 9 candidates.
 // Tests        tests/firmware/estimation/map_grid_match_test.cpp
 #pragma once
 
@@ -11,115 +11,122 @@
 
 namespace rover::slip {
 
-inline constexpr uint8_t kResidualCount = 6;
-inline constexpr uint8_t kPriorStepsPerHalfBin = 2048 >> kPriorShift;
+inline constexpr uint8_t kResidualCount = kHalfBinCandidates / 2 + 1;
 
-inline constexpr uint8_t kHalfBinCount = 2 * kResidualCount - 1;
-
-/// The minimum of the weighted sum of squares and what surrounds it.
-struct Match {
-    U16 cost_q6[kHalfBinCount] = {};  ///< candidate i is at first + i; the others hold fits alone
-    uint8_t first = 0;
-    uint8_t best = 0;  ///< candidate with the least cost
-    U16 least_q6{0};
-    U16 fit_q6{0};  ///< squared residual part at the minimum
-
-    constexpr U16 cost(uint8_t candidate) const { return cost_q6[first + candidate]; }
-};
-static_assert(kHalfBinCount >= kHalfBinCandidates + 1);
-
-/// Residual sigma now: a share of the roughness, wider when matching has gone badly. mm Q8.
-[[gnu::noinline]] constexpr U16 residual_sigma_q8_mm(const MapGrid& map) {
-    const U16 base = max(shift_floor<kSigmaPerRoughShift>(map.rough_q8_mm), U16{kSigmaFloorQ8Mm});
-    const U16 widen_q8 =
-        narrow_sat_u16(shift_floor<10>(mul_wide(map.match_cost_q10, U16{kWidenPerCostQ8})));
-    const U16 bounded_q8 = clamp(widen_q8, U16{256}, U16{kWidenMaxQ8});
-    return narrow_wrap_u16(shift_floor<8>(add_wrap(mul_wide(base, bounded_q8), U32{128})));
+/// Doublings that bring the residual sigma to 16 mm, rounded: u8 [0, kScaleMax]. Sigma is a quarter
+/// of the roughness, wider when matching has gone badly.
+constexpr U8 residual_scale(const MapGrid& map) {
+    U8 scale{0};
+    const U8 least_q1_mm = kRoughOf16MmQ1[index_of(shift_floor<8>(map.match_cost_q10))];
+    U16 rough = shift_left_wrap<1>(map.rough_q8_mm);  // high byte Q1
+    while (narrow_wrap_u8(shift_floor<8>(rough)) < least_q1_mm && scale < U8{kScaleMax}) {
+        rough = shift_left_wrap<1>(rough);
+        scale = add_wrap(scale, U8{1});
+    }
+    return scale;
 }
 
-/// Square of a distance in 1/16 sigma, in 1/64 squared sigma; saturates at 256 squared sigma.
-constexpr U16 square_q6(S16 distance) {
-    return look_up(kSquareQ6, narrow_sat_u8(abs_u16(distance)));
+/// Squared distance in 1/8 squared sigma, saturating, from a distance in 1/8 sigma plus 128.
+constexpr U8 square_q3(U8 steps) {
+    return kSquareQ3[index_of(steps)];
 }
 
 /// Expected advance of this cycle: the learned mean of a 6 cm cycle and the odd bit of odometry.
-[[gnu::noinline]] constexpr S16 expected_advance_q12_bin(const MapGrid& map,
-                                                         const MapGridInput& input) {
-    const S16 odometer_q12_bin = shift_left_sat<6>(input.odometer_q6_bin);
-    return add_sat(map.mean_q12_bin, sub_sat(odometer_q12_bin, S16{kMeanNoSlipQ12Bin}));
+constexpr S16 expected_advance_q12_bin(const MapGrid& map, const MapGridInput& input) {
+    const S16 odometer = clamp(input.odometer_q6_bin, S16{0}, S16{511});
+    return add_wrap(map.mean_q12_bin,
+                    sub_wrap(shift_left_wrap<6>(odometer), S16{kMeanNoSlipQ12Bin}));
 }
 
-/// Squared misfits of the middle wheel at half bins: the rear wheel on `first_node`, half a bin
-/// behind it, on the next node, and so on.
-[[gnu::noinline]] constexpr void squared_misfits(const MapGrid& map, const MapGridInput& input,
-                                                 U16 first_node, U16 (&square)[kHalfBinCount]) {
-    // 16 steps per sigma, 16 units per mm: 2^20 / sigma_q8 is steps per unit in Q12, and sigma is
-    // at least kSigmaFloorQ8Mm. The other 4 bits come from the misfit, so the product is Q16.
-    static_assert(1048576 / kSigmaFloorQ8Mm <= 65535);
-    const U16 per_sigma_q12 =
-        narrow_wrap_u16(div_floor(U32{1048576}, widen_u32(residual_sigma_q8_mm(map))));
-    const S16 height_q4_mm = input.middle_height_q4_mm;
-    const U16 middle_split = split_place(input.middle_distance_q6_bin);
-    const U8 fraction_q8 = fraction_q8_of(middle_split);
-    U8 rear = narrow_wrap_u8(first_node);
-    U8 middle = add_wrap(rear, node_of(middle_split));
-    S16 before_q4_mm = node_height(map, middle);
-    S16 last{0};
-    for (uint8_t i = 0; i < kHalfBinCount; i += 2) {
-        middle = add_wrap(middle, U8{1});
-        const S16 after_q4_mm = node_height(map, middle);
-        const S16 rise_q4_mm =
-            sub_wrap(lerp_q8(before_q4_mm, after_q4_mm, fraction_q8), node_height(map, rear));
-        const S16 misfit_q4_mm =
-            clamp(sub_wrap(height_q4_mm, rise_q4_mm), S16{-kMisfitMaxQ4Mm}, S16{kMisfitMaxQ4Mm});
-        const S32 product_q16 = mul_wide(shift_left_wrap<4>(misfit_q4_mm), per_sigma_q12);
-        const S16 scaled = narrow_wrap_s16(shift_floor<16>(add_wrap(product_q16, S32{0x8000})));
-        const S16 misfit = clamp(scaled, S16{-1023}, S16{1023});
-        square[i] = square_q6(misfit);
-        if (i > 0) square[i - 1] = square_q6(halve_floor(add_wrap(last, misfit)));
-        last = misfit;
-        before_q4_mm = after_q4_mm;
+/// Nine half bins around the expected place, and what is found there.
+struct Match {
+    /// Misfit of the middle wheel with the rear wheel on candidate i, in 1/8 sigma plus 128; then
+    /// its cost. The first byte is no candidate.
+    U8 steps[kHalfBinCandidates + 1];
+    uint8_t best;  ///< candidate with the least cost
+    U8 least_q3;   ///< 1/8 of a squared sigma
+    U8 fit_q3;     ///< squared residual part of it
+};
+
+/// Misfits with the rear wheel on `rear`, the nodes behind it, and in between.
+[[gnu::noinline]] constexpr void find_misfits(const MapGrid& map, const MapGridInput& input,
+                                              U8 rear, Match& match) {
+    const U8 scale = residual_scale(map);
+    const U8 room = shift_floor(U8{128}, native(scale));
+    const U8 span = narrow_wrap_u8(sub_wrap(shift_left_wrap<1>(widen_u16(room)), U16{1}));
+    const U16 middle_split = split_place(add_wrap(input.middle_distance_q6_bin, U16{2}));
+    const U8 fraction_q4 = shift_floor<4>(fraction_q8_of(middle_split));
+    const U8 ahead = node_of(middle_split);
+    U16 before_q4_mm = narrow_wrap_u16(node_height(map, add_wrap(rear, ahead)));
+    U8 last{0};
+    U8* out = match.steps;
+    for (uint8_t i = 0; i < kResidualCount; ++i) {
+        const U16 seen = sub_wrap(add_wrap(narrow_wrap_u16(node_height(map, rear)),
+                                           narrow_wrap_u16(input.middle_height_q4_mm)),
+                                  before_q4_mm);
         rear = add_wrap(rear, U8{1});
+        const U16 after_q4_mm = narrow_wrap_u16(node_height(map, add_wrap(rear, ahead)));
+        const S16 rise = narrow_wrap_s16(sub_wrap(after_q4_mm, before_q4_mm));
+        before_q4_mm = after_q4_mm;
+        const U16 misfit_q7_mm =
+            sub_wrap(shift_left_wrap<3>(seen),
+                     mul_wrap(narrow_wrap_u16(halve_floor(rise)), widen_u16(fraction_q4)));
+        const U8 high = narrow_wrap_u8(shift_floor<8>(misfit_q7_mm));
+        U8 steps = high < U8{128} ? U8{255} : U8{0};
+        if (add_wrap(high, room) <= span) {
+            const U16 scaled = shift_left_wrap(misfit_q7_mm, native(bit_and(scale, U8{7})));
+            steps = add_wrap(narrow_wrap_u8(shift_floor<8>(scaled)), U8{128});
+        }
+        *out++ = average(last, steps);
+        *out++ = steps;
+        last = steps;
     }
 }
 
-/// The costs of kHalfBinCandidates places from `first_half_bin` on, and their first minimum.
-/// @param expected_q12_bin  advance that the prior expects
-[[gnu::noinline]] constexpr void match_costs(const MapGrid& map, const MapGridInput& input,
-                                             U16 first_half_bin, S16 expected_q12_bin,
-                                             Match& match) {
-    squared_misfits(map, input, shift_floor<1>(first_half_bin), match.cost_q6);
-    match.first = index_of(narrow_wrap_u8(bit_and(first_half_bin, U16{1})));
-    const U16 first_place = shift_left_wrap<5>(first_half_bin);
-    const S16 offset_q12 =
-        sub_sat(shift_left_sat<6>(ahead_of(map.place_q6_bin, first_place)), expected_q12_bin);
-    // A quarter of the squares of x, x + 16, x + 32 ...: differences 8 x + 64, 8 x + 192 ...
-    const S16 offset = shift_round_half_up<kPriorShift>(offset_q12);  // 1/16 of the prior's sigma
-    U16 prior_q6 = square_q6(offset);
-    S16 difference = add_wrap(shift_left_wrap<3>(offset), S16{64});
-    U16 least{0xFFFF};
-    for (uint8_t i = 0; i < kHalfBinCandidates; ++i) {
-        U16& cost = match.cost_q6[match.first + i];
-        const U16 fit = cost;
-        cost = add_wrap(fit, prior_q6);
-        if (cost < least) {
-            least = cost;
-            match.best = i;
-            match.fit_q6 = fit;
-        }
-        prior_q6 = add_wrap(prior_q6, narrow_wrap_u16(difference));
-        difference = add_wrap(difference, S16{128});
+/// First minimum of the costs of kHalfBinCandidates half bins.
+/// @param first  first candidate that is not behind the rear wheel: 0, 2 or 4
+/// @param off_q6_bin  from the expected place to the middle candidate, [-31, 32]
+[[gnu::noinline]] constexpr void find_minimum(uint8_t first, S8 off_q6_bin, Match& match) {
+    // Half bins are one sigma of the prior: 8 i^2 + i off/2, relative to the vertex.
+    // Ties to even: a rounding of one kind would shift every advance.
+    const U8 tie = bit_and(narrow_wrap_u8(shift_floor<1>(off_q6_bin)), U8{1});
+    const S8 half_off = halve_floor(add_wrap(off_q6_bin, narrow_wrap_s8(tie)));  // [-16, 16]
+    U8 prior_q3 = square_q3(add_wrap(shift_floor<1>(abs_u8(half_off)), U8{128}));
+    U8 step = add_wrap(U8{256 + 8 - 64}, narrow_wrap_u8(half_off));
+    prior_q3 = sub_wrap(add_wrap(prior_q3, U8{128}), narrow_wrap_u8(shift_left_wrap<2>(half_off)));
+    if (first != 0) {
+        const bool four = first != 2;
+        const U8 twice = narrow_wrap_u8(shift_left_wrap<1>(half_off));
+        prior_q3 = add_wrap(prior_q3, sub_wrap(twice, U8{96}));
+        if (four) prior_q3 = add_wrap(prior_q3, sub_wrap(twice, U8{32}));
+        step = add_wrap(step, four ? U8{64} : U8{32});
     }
-    match.least_q6 = least;
+    U8* place = match.steps + 1 + first;
+    U8 least{255};
+    match.best = first;
+    match.fit_q3 = U8{255};
+    for (uint8_t i = first; i < kHalfBinCandidates; ++i) {
+        const U8 fit = square_q3(*place);
+        const U8 sum = add_sat(fit, prior_q3);
+        *place++ = sum;
+        if (sum < least) {
+            least = sum;
+            match.best = i;
+            match.fit_q3 = fit;
+        }
+        prior_q3 = add_wrap(prior_q3, step);
+        step = add_wrap(step, U8{16});
+    }
+    match.least_q3 = least;
 }
 
 /// Running cost, loss of lock and its return.
-[[gnu::noinline]] constexpr void judge_match(MapGrid& map, U16 cost_q6) {
-    const S16 now_q10 = narrow_wrap_s16(shift_left_wrap<4>(min(cost_q6, U16{kCostCapQ6})));
+[[gnu::noinline]] constexpr void judge_match(MapGrid& map, U8 cost_q3) {
+    const U16 now_q10 = shift_left_wrap<7>(widen_u16(min(cost_q3, U8{kCostCapQ3})));
     // An eighth of the way, rounded half up.
-    const S16 step_q10 =
-        shift_round_half_up<3>(sub_wrap(now_q10, narrow_wrap_s16(map.match_cost_q10)));
-    map.match_cost_q10 = add_wrap(map.match_cost_q10, narrow_wrap_u16(step_q10));
+    const S16 way_q10 = narrow_wrap_s16(sub_wrap(now_q10, map.match_cost_q10));
+    map.match_cost_q10 =
+        add_wrap(map.match_cost_q10, narrow_wrap_u16(shift_floor<3>(add_wrap(way_q10, S16{4}))));
     if (map.match_cost_q10 > U16{kReacquireCostQ10}) {
         if (map.mode != SlipMode::reacquiring) {
             map.lost_lock = true;
@@ -140,75 +147,67 @@ struct Parabola {
     U16 variance_q12{kPriorVarianceQ12};
 };
 
-/// Parabola through the least cost and its neighbours. A half bin is 32 units; rounded half up.
-[[gnu::noinline]] constexpr void fit_parabola(U16 before, U16 least, U16 after, Parabola& result) {
-    U16 bend = add_wrap(sub_wrap(before, least), sub_wrap(after, least));
+/// Parabola through the least cost and its neighbours. A half bin is 32 units; rounded half away.
+constexpr void fit_parabola(U8 before, U8 least, U8 after, Parabola& result) {
+    const U16 bend =
+        add_wrap(widen_u16(sub_wrap(before, least)), widen_u16(sub_wrap(after, least)));
     if (bend == U16{0}) return;
-    // 2^17 / bend; below 128 that is more than the prior's variance.
-    if (bend > U16{128}) result.variance_q12 = div_floor(U16{65535}, halve_floor(bend));
-    // 16 (before - after) / bend, bit by bit: |before - after| <= bend.
+    if (bend > U16{16}) result.variance_q12 = div_floor(U16{16384}, bend);
     const bool ahead = before >= after;
-    U16 rest = ahead ? sub_wrap(before, after) : sub_wrap(after, before);
-    if (bend >= U16{0x8000}) {  // room for the bit that comes in below
-        bend = halve_floor(bend);
-        rest = halve_floor(rest);
-    }
-    U8 whole{0};
-    for (uint8_t bit = 0; bit < 5; ++bit) {
-        whole = shift_left_wrap<1>(whole);
-        if (rest >= bend) {
-            rest = sub_wrap(rest, bend);
-            whole = add_wrap(whole, U8{1});
-        }
-        if (bit < 4) rest = shift_left_wrap<1>(rest);
-    }
-    // Half up: away from zero ahead, towards it behind.
-    const U16 missing = sub_wrap(bend, rest);
-    if (ahead ? rest >= missing : rest > missing) whole = add_wrap(whole, U8{1});
-    const S16 offset = narrow_wrap_s16(widen_u16(whole));
+    const U16 rest = widen_u16(ahead ? sub_wrap(before, after) : sub_wrap(after, before));
+    const S16 offset =
+        narrow_wrap_s16(div_floor(add_wrap(shift_left_wrap<4>(rest), halve_floor(bend)), bend));
     result.offset_q6_bin = ahead ? offset : neg_wrap(offset);
 }
 
-/// A cycle adds at most 1024 = 32^2, so the root grows by at most 32.
-inline constexpr uint8_t kSpreadStepsMax = kPriorVarianceQ12 / 32;
-
-/// Adds to the variance of the position and follows with its root, rounded down, unit by unit.
-[[gnu::noinline]] constexpr void add_variance(MapGrid& map, U16 variance_q12) {
+/// Adds to the variance of the position and follows with its root: rounded down to a multiple of
+/// kSpreadStepQ6Bin, at most kSpreadStepsMax such steps a cycle.
+constexpr void add_variance(MapGrid& map, U16 variance_q12) {
     map.variance_q12 = add_sat(map.variance_q12, widen_u32(variance_q12));
-    U32 rest = sub_wrap(map.variance_q12, mul_wide(map.spread_q6_bin, map.spread_q6_bin));
+    U16 rest = add_sat(map.spread_rest_q12, variance_q12);
     for (uint8_t i = 0; i < kSpreadStepsMax; ++i) {
-        const U32 twice = shift_left_wrap<1>(widen_u32(map.spread_q6_bin));
-        if (rest <= twice) return;
-        rest = sub_wrap(rest, add_wrap(twice, U32{1}));
-        map.spread_q6_bin = add_wrap(map.spread_q6_bin, U16{1});
+        // (s + 8)^2 = s^2 + 16 s + 64
+        const U16 next = add_wrap(shift_left_wrap<4>(map.spread_q6_bin), U16{64});
+        if (rest < next) break;
+        if (map.spread_q6_bin >= U16{kSpreadMaxQ6Bin}) break;
+        rest = sub_wrap(rest, next);
+        map.spread_q6_bin = add_wrap(map.spread_q6_bin, U16{kSpreadStepQ6Bin});
     }
+    map.spread_rest_q12 = rest;
 }
 
 /// Finds the advance that fits best, and books how sure it is.
-/// @return  s16 1/64 bin, [0, kReachQ6Bin + 31]
+/// @return  s16 1/64 bin, [0, kReachQ6Bin + kBeyondQ6Bin]
 [[gnu::noinline]] constexpr S16 match_advance(MapGrid& map, const MapGridInput& input) {
     const S16 expected_q12 = expected_advance_q12_bin(map, input);
     const S16 expected_q6 = max(shift_round_half_up<6>(expected_q12), S16{0});
-    const U16 first_half_bin = shift_floor<5>(add_wrap(map.place_q6_bin, U16{31}));
+    // Four half bins to both sides of the half bin nearest to the expected place.
+    const U16 expected = add_wrap(map.place_q6_bin, narrow_wrap_u16(expected_q6));
+    const U16 node = shift_floor<6>(sub_wrap(expected, U16{96}));
+    const U16 first_place = shift_left_wrap<6>(node);
+    const S16 off = ahead_of(expected, add_wrap(first_place, U16{128}));
+    uint8_t first = 0;
+    S16 behind = ahead_of(first_place, map.place_q6_bin);
+    if (behind >= S16{64}) first = 2;
+    if (behind >= S16{128}) first = 4;
     Match match;
-    match_costs(map, input, first_half_bin, expected_q12, match);
-    const uint8_t best = match.best;
-    const bool inside = best > 0 && best < kHalfBinCandidates - 1;
+    find_misfits(map, input, narrow_wrap_u8(node), match);
+    find_minimum(first, narrow_wrap_s8(off), match);
+    const bool inside = match.best > first && match.best < kHalfBinCandidates - 1;
     Parabola minimum;
     if (inside) {
-        fit_parabola(match.cost(static_cast<uint8_t>(best - 1)), match.least_q6,
-                     match.cost(static_cast<uint8_t>(best + 1)), minimum);
+        const U8* least = match.steps + 1 + match.best;
+        fit_parabola(least[-1], match.least_q3, least[1], minimum);
     }
     add_variance(map, minimum.variance_q12);
     if (minimum.variance_q12 > U16{kUninformedVarianceQ12}) {
         const S16 share_q12 = shift_floor<2>(expected_q6);  // mean / 256: q6 << 6 >> 8
         map.drift_q12_bin = add_sat(map.drift_q12_bin, widen_u32(narrow_wrap_u16(share_q12)));
     }
-    judge_match(map, match.least_q6);
-    if (!inside && match.fit_q6 > U16{kCredibleFitQ6}) return expected_q6;
-    const U16 half_bins = add_wrap(first_half_bin, widen_u16(U8{best}));
-    const U16 place =
-        add_wrap(shift_left_wrap<5>(half_bins), narrow_wrap_u16(minimum.offset_q6_bin));
+    judge_match(map, match.least_q3);
+    if (!inside && match.fit_q3 > U8{kCredibleFitQ3}) return expected_q6;
+    const U16 place = add_wrap(add_wrap(first_place, shift_left_wrap<5>(widen_u16(U8{match.best}))),
+                               narrow_wrap_u16(minimum.offset_q6_bin));
     return max(ahead_of(map.place_q6_bin, place), S16{0});
 }
 

@@ -1,112 +1,154 @@
 // map_grid_sinkage.hpp - sinkage: undisturbed ground seen ahead minus the surface the wheel found.
-// Depends on   map_grid_surface.hpp.
+// Depends on   map_grid_surface.hpp, square_table.hpp.
 // Source       Wilcox 1994, "primary function being estimated is the loadbearing surface"; sinkage
 //              from the look-ahead samples, shrunk by what their noise allows.
-// Bounds       at most kSampleCount samples are looked at or moved.
+// Bounds       at most the 32 bins of the ring are looked at.
 // Tests        tests/firmware/estimation/map_grid_sinkage_test.cpp
 #pragma once
 
 #include "firmware/estimation/map_grid_surface.hpp"
+#include "firmware/estimation/tables/square_table.hpp"
 
 namespace rover::slip {
 
-/// Merges the sample into one nearer than kMergeQ6Bin, else inserts it by place; a full list keeps
-/// what it has.
+/// floor(64 a / b) for a < b; 63 for a = b.
+[[gnu::noinline]] constexpr U8 ratio_q6(U8 a, U8 b) {
+    U8 ratio{0};
+    for (uint8_t i = 0; i < 6; ++i) {
+        ratio = shift_left_wrap<1>(ratio);
+        const U8 missing = sub_wrap(b, a);
+        if (a >= missing) {
+            a = sub_wrap(a, missing);
+            ratio = add_wrap(ratio, U8{1});
+        } else {
+            a = shift_left_wrap<1>(a);
+        }
+    }
+    return ratio;
+}
+
+/// Puts the sample into its bin; two in one bin are averaged. Bins that the front wheel has passed
+/// or that are beyond the ring take none.
 [[gnu::noinline]] constexpr void insert_sample(MapGrid& map, U16 place_q6_bin, S16 height_q4_mm) {
-    uint8_t after = map.sample_count;  // new samples are far ahead: the search begins at the end
-    while (after > 0 &&
-           ahead_of(place_q6_bin, sample_at(map, static_cast<uint8_t>(after - 1)).place_q6_bin) >
-               S16{0}) {
-        --after;
+    const U16 split = split_place(place_q6_bin);
+    const U8 bin = node_of(split);
+    if (sub_wrap(bin, map.passed_bin) > U8{kSampleReach}) return;
+    const uint8_t i = ring_index(bin);
+    U8 fraction = bit_or(fraction_q8_of(split), U8{1});
+    const U8 old = map.ahead.fraction_q8[i];
+    if (old != U8{0}) {
+        fraction = bit_or(bit_and(average(fraction, old), U8{0xFC}), U8{1});
+        const S16 seen = map.ahead.height_q4_mm[i];
+        height_q4_mm = add_wrap(seen, halve_floor(sub_wrap(height_q4_mm, seen)));
     }
-    for (uint8_t step = 0; step < 2; ++step) {  // the one ahead first, then the one behind
-        const uint8_t near = static_cast<uint8_t>(after - step);
-        if (near >= map.sample_count) continue;
-        GroundSample& sample = sample_at(map, near);
-        const S16 apart = ahead_of(place_q6_bin, sample.place_q6_bin);
-        if (abs_u16(apart) >= U16{kMergeQ6Bin}) continue;
-        sample.place_q6_bin = add_wrap(place_q6_bin, narrow_wrap_u16(halve_floor(apart)));
-        sample.height_q4_mm =
-            add_wrap(height_q4_mm, halve_floor(sub_wrap(sample.height_q4_mm, height_q4_mm)));
-        return;
-    }
-    if (map.sample_count == kSampleCount) return;
-    for (uint8_t i = map.sample_count; i > after; --i) {
-        sample_at(map, i) = sample_at(map, static_cast<uint8_t>(i - 1));
-    }
-    sample_at(map, after) = GroundSample{place_q6_bin, height_q4_mm};
-    ++map.sample_count;
+    map.ahead.fraction_q8[i] = fraction;
+    map.ahead.height_q4_mm[i] = height_q4_mm;
 }
 
-/// Forgets samples until at most one is behind the front wheel.
-constexpr void forget_passed(MapGrid& map) {
-    for (uint8_t i = 0; i < kSampleCount; ++i) {
-        if (map.sample_count < 2) return;
-        if (ahead_of(sample_at(map, 1).place_q6_bin, map.front_place_q6_bin) <= S16{0}) return;
-        map.sample_first = static_cast<uint8_t>(map.sample_first + 1u);
-        --map.sample_count;
-    }
+/// Place of a sample, as node and fraction.
+constexpr U16 sample_place(U8 bin, U8 fraction_q8) {
+    return bit_or(shift_left_wrap<8>(widen_u16(bin)), widen_u16(bit_and(fraction_q8, U8{0xFC})));
 }
 
-/// Share of the smoothed sinkage to believe, Q8 [0, 256]: 1 - noise^2 / signal^2.
-[[gnu::noinline]] constexpr U16 believed_share_q8(const MapGrid& map) {
-    const U16 by_rough_q8_mm =
-        narrow_sat_u16(shift_floor<8>(mul_wide(map.rough_q8_mm, U16{kLookPerRoughQ8})));
-    const U16 larger = max(by_rough_q8_mm, U16{kLookNoiseQ8Mm});
-    const U16 smaller = min(by_rough_q8_mm, U16{kLookNoiseQ8Mm});
-    // Root of the sum of squares, within 7 %: larger + 3/8 smaller.
-    const U16 noise_q8_mm =
-        add_sat(larger, add_wrap(shift_floor<2>(smaller), shift_floor<3>(smaller)));
-    const U32 after_smoothing_q16 = mul_wide(noise_q8_mm, U16{kSmoothedShareQ8});
-    const U16 ratio_q8 = div_floor_sat_u16(after_smoothing_q16, map.sinkage_size_q8_mm);
-    if (ratio_q8 >= U16{kBelieveNoneQ8}) return U16{0};
-    const U16 squared_q8 = narrow_wrap_u16(shift_floor<8>(mul_wide(ratio_q8, ratio_q8)));
-    const U16 doubt_q8 = narrow_wrap_u16(shift_floor<8>(mul_wide(squared_q8, U16{kBelieveQ8})));
-    return sub_sat(U16{256}, doubt_q8);
+/// Share of the smoothed sinkage to believe, Q7 [0, 128]: 1 - 0.64 noise^2 / signal^2.
+constexpr U8 believed_share_q7(const MapGrid& map) {
+    const U8 size =  // Q4
+        narrow_wrap_u8(
+            shift_floor<8>(shift_left_wrap<1>(narrow_wrap_u16(map.sinkage_size_q11_mm))));
+    const U8 rough = narrow_wrap_u8(shift_floor<7>(map.rough_q8_mm));  // Q1
+    // 0.378 of the root of the sum of squares, as larger + 3/8 smaller. 0.378 * 0.3 * 8 = 0.91.
+    const U8 by_rough = sub_wrap(rough, shift_floor<3>(rough));
+    const U8 noise = by_rough < U8{kNoiseFloorQ4Mm}
+                         ? add_wrap(shift_floor<2>(add_wrap(by_rough, shift_floor<1>(by_rough))),
+                                    U8{kNoiseFloorQ4Mm})
+                         : add_wrap(by_rough, U8{4});
+    const U8 signal = add_sat(size, shift_floor<2>(size));  // 0.64 = (4/5)^2
+    if (noise >= signal) return U8{0};
+    const U8 ratio_q5 = shift_floor<1>(ratio_q6(noise, signal));
+    return sub_wrap(U8{128}, kSquareQ3[index_of(add_wrap(ratio_q5, U8{128}))]);
 }
 
 /// Smooths one raw sinkage and shrinks it; never negative.
-[[gnu::noinline]] constexpr void smooth_sinkage(MapGrid& map, S16 raw_q4_mm) {
+constexpr void smooth_sinkage(MapGrid& map, S16 raw_q4_mm) {
     const uint8_t count = map.sinkage_count;
-    const S16 raw_q6_mm = shift_left_sat<2>(raw_q4_mm);
-    if (count == 0) {
-        map.sinkage_smooth_q6_mm = raw_q6_mm;
-        map.sinkage_size_q8_mm = shift_left_sat<2>(abs_u16(raw_q6_mm));
-    } else {
-        const uint8_t smooth = count < kSmoothSteps ? count : kSmoothSteps;
-        map.sinkage_smooth_q6_mm =
-            approach(map.sinkage_smooth_q6_mm, raw_q6_mm, kSmoothGainQ8[smooth]);
-        const U16 size = min(shift_left_sat<2>(abs_u16(map.sinkage_smooth_q6_mm)), U16{32767});
-        map.sinkage_size_q8_mm =
-            narrow_wrap_u16(approach(narrow_wrap_s16(min(map.sinkage_size_q8_mm, U16{32767})),
-                                     narrow_wrap_s16(size), kSizeGainQ8[count]));
+    const S16 raw = shift_left_wrap<1>(clamp(raw_q4_mm, S16{-kRawMaxQ4Mm}, S16{kRawMaxQ4Mm}));
+    S16 smooth = raw;
+    if (count > 0) {
+        const S16 way = sub_wrap(raw, map.sinkage_smooth_q5_mm);
+        smooth = add_wrap(map.sinkage_smooth_q5_mm,
+                          count == 1 ? halve_floor(way) : shift_floor<2>(add_wrap(way, S16{2})));
     }
+    map.sinkage_smooth_q5_mm = smooth;
+    const U16 size_q5 = abs_u16(smooth);
+    const S16 size_q11 = narrow_wrap_s16(shift_left_wrap<6>(min(size_q5, U16{kSizeMaxQ5Mm})));
+    map.sinkage_size_q11_mm = approach(map.sinkage_size_q11_mm, size_q11, kSizeGainQ8[count]);
     if (count < kSizeSteps) ++map.sinkage_count;
-    const S16 depth_q6_mm = max(map.sinkage_smooth_q6_mm, S16{0});
-    const S32 believed = mul_wide(depth_q6_mm, believed_share_q8(map));
-    map.sinkage_q4_mm = narrow_sat_s16(shift_round_half_up<10>(believed));
-    map.sinkage_alarm = map.sinkage_q4_mm > S16{kSinkageAlarmQ4Mm};
+    S16 sinkage{0};
+    if (smooth > S16{0}) {
+        sinkage = narrow_wrap_s16(shift_floor<8>(mul_wide(smooth, believed_share_q7(map))));
+    }
+    map.sinkage_q4_mm = sinkage;
+    map.sinkage_alarm = sinkage > S16{kSinkageAlarmQ4Mm};
+}
+
+/// Moves on to the bin of the front wheel: the last sample that it passed is kept, all others of
+/// passed bins are forgotten.
+/// @param split  place of the front wheel as node and fraction
+constexpr void pass_samples(MapGrid& map, U16 split) {
+    const U8 front_bin = node_of(split);
+    U8 bin = map.passed_bin;
+    for (uint8_t i = 0; i < kNodeCount; ++i) {
+        U8& fraction = map.ahead.fraction_q8[ring_index(bin)];
+        if (fraction != U8{0}) {
+            if (bin == front_bin && fraction > bit_or(fraction_q8_of(split), U8{1})) break;
+            map.has_behind = true;
+            map.behind_place_q8_bin = sample_place(bin, fraction);
+            map.behind_height_q4_mm = map.ahead.height_q4_mm[ring_index(bin)];
+            fraction = U8{0};
+        }
+        if (bin == front_bin) break;
+        bin = add_wrap(bin, U8{1});
+    }
+    map.passed_bin = front_bin;
+}
+
+/// The ground under the front wheel between the samples on both sides of it.
+/// @return  true: there are two
+constexpr bool ground_at_front(const MapGrid& map, U16 split, S16& ground_q4_mm) {
+    if (!map.has_behind) return false;
+    U8 bin = map.passed_bin;
+    for (uint8_t i = 0; i < kSearchBins; ++i) {
+        const U8 fraction = map.ahead.fraction_q8[ring_index(bin)];
+        if (fraction != U8{0}) {
+            const U16 span = sub_wrap(sample_place(bin, fraction), map.behind_place_q8_bin);
+            const U16 along = sub_wrap(split, map.behind_place_q8_bin);
+            if (span >= U16{kSpanMaxQ8Bin}) return false;
+            const U8 span_q4 = narrow_wrap_u8(shift_floor<4>(span));
+            const U8 along_q4 = narrow_wrap_u8(shift_floor<4>(along));
+            const U8 share = shift_left_wrap<2>(ratio_q6(along_q4, span_q4));
+            ground_q4_mm =
+                lerp_q8(map.behind_height_q4_mm, map.ahead.height_q4_mm[ring_index(bin)], share);
+            return true;
+        }
+        bin = add_wrap(bin, U8{1});
+    }
+    return false;
 }
 
 /// Takes in this cycle's look-ahead samples and, when they bracket the front wheel, the sinkage.
-constexpr void look_ahead(MapGrid& map, const MapGridInput& input, S16 rear_height_q4_mm) {
+constexpr void look_ahead(MapGrid& map, const MapGridInput& input, S16 rear_height_q4_mm,
+                          U16 front) {
     for (uint8_t i = 0; i < input.ahead_count && i < kLookAheadMax; ++i) {
         insert_sample(map, add_wrap(map.place_q6_bin, input.ahead_distance_q6_bin[i]),
                       add_wrap(rear_height_q4_mm, input.ahead_height_q4_mm[i]));
     }
-    forget_passed(map);
-    const U16 front = add_wrap(map.place_q6_bin, input.front_distance_q6_bin);
-    map.sinkage_valid = map.sample_count > 1 && front == map.front_place_q6_bin &&
-                        ahead_of(sample_at(map, 0).place_q6_bin, map.front_place_q6_bin) >= S16{0};
-    if (!map.sinkage_valid) return;
-    const GroundSample& a = sample_at(map, 0);
-    const GroundSample& b = sample_at(map, 1);
-    const U16 span = sub_wrap(b.place_q6_bin, a.place_q6_bin);
-    const U16 along = sub_wrap(map.front_place_q6_bin, a.place_q6_bin);
-    const U8 fraction_q8 =
-        narrow_sat_u8(div_floor_sat_u16(shift_left_wrap<8>(widen_u32(along)), span));
-    const S16 ground = lerp_q8(a.height_q4_mm, b.height_q4_mm, fraction_q8);
-    smooth_sinkage(map, sub_wrap(ground, map.front_height_q4_mm));
+    map.sinkage_valid = false;
+    if (front != map.front_place_q6_bin) return;
+    const U16 split = split_place(front);
+    pass_samples(map, split);
+    S16 ground{0};
+    map.sinkage_valid = ground_at_front(map, split, ground);
+    if (map.sinkage_valid) smooth_sinkage(map, sub_wrap(ground, map.front_height_q4_mm));
 }
 
 }  // namespace rover::slip

@@ -31,10 +31,10 @@ struct MapGridInput {
     U16 ahead_distance_q6_bin[kLookAheadMax] = {};
 };
 
-/// A point of undisturbed ground seen by the look-ahead sensor.
-struct GroundSample {
-    U16 place_q6_bin{0};
-    S16 height_q4_mm{0};
+/// Ground seen ahead, one sample a bin: that of bin n lives at n modulo 32.
+struct GroundAhead {
+    S16 height_q4_mm[slip::kNodeCount] = {};
+    U8 fraction_q8[slip::kNodeCount] = {};  ///< of the bin, lowest bit set; 0: no sample
 };
 
 struct MapGrid {
@@ -56,31 +56,25 @@ struct MapGrid {
     U16 match_cost_q10{slip::kInitialCostQ10};
     uint8_t learned = 0, rough_count = 0;
 
-    U16 spread_q6_bin{0};  ///< root of the variance, rounded down
-    U32 variance_q12{0};   ///< of the position, (1/64 bin)^2
-    U32 drift_q12_bin{0};  ///< systematic part of the position uncertainty
+    U16 spread_q6_bin{0};    ///< root of the variance, rounded down
+    U16 spread_rest_q12{0};  ///< what the root leaves of the variance
+    U32 variance_q12{0};     ///< of the position, (1/64 bin)^2
+    U32 drift_q12_bin{0};    ///< systematic part of the position uncertainty
 
-    GroundSample sample[slip::kSampleRing] = {};  ///< by place; see sample_at()
-    uint8_t sample_first = 0;                     ///< of the nearest one, modulo the ring
-    uint8_t sample_count = 0;
+    GroundAhead ahead{};
+    U8 passed_bin{0};            ///< bins before this one have been passed by the front wheel
+    bool has_behind = false;     ///< `behind` is the last sample that the front wheel passed
+    U16 behind_place_q8_bin{0};  ///< modulo 256 bins
+    S16 behind_height_q4_mm{0};
     uint8_t sinkage_count = 0;
     bool sinkage_valid = false;
-    S16 sinkage_smooth_q6_mm{0};
-    U16 sinkage_size_q8_mm{0};
+    S16 sinkage_smooth_q5_mm{0};
+    S16 sinkage_size_q11_mm{0};  ///< mean of |smooth|, at most 16 mm
     S16 sinkage_q4_mm{0};
 
     SlipMode mode = SlipMode::odometry_only;
     bool slip_alarm = false, sinkage_alarm = false, lost_lock = false;
 };
-
-/// Ground sample `index` by place, 0 the nearest.
-constexpr GroundSample& sample_at(MapGrid& map, uint8_t index) {
-    return map.sample[(map.sample_first + index) & (slip::kSampleRing - 1u)];
-}
-
-constexpr const GroundSample& sample_at(const MapGrid& map, uint8_t index) {
-    return map.sample[(map.sample_first + index) & (slip::kSampleRing - 1u)];
-}
 
 /// b - a for places modulo 2^16: positive when b is ahead.
 constexpr S16 ahead_of(U16 a_q6_bin, U16 b_q6_bin) {

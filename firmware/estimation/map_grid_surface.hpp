@@ -29,7 +29,7 @@ constexpr S16& node_height(MapGrid& map, U16 node) {
     return node_height(map, narrow_wrap_u8(node));
 }
 
-/// A place as node (modulo 64) in the high byte and 1/256 bin in the low byte: both are at hand.
+/// A place as node (modulo 256) in the high byte and 1/256 bin in the low byte: both are at hand.
 constexpr U16 split_place(U16 place_q6_bin) {
     return shift_left_wrap<2>(place_q6_bin);
 }
@@ -48,18 +48,19 @@ constexpr U8 fraction_q8_of(U16 split) {
                    fraction_q8_of(split));
 }
 
-/// value + (target - value) * gain / 256, rounded half up.
+/// value + (target - value) * gain / 256, rounded half up. The difference must fit in an S16.
 [[gnu::noinline]] constexpr S16 approach(S16 value, S16 target, uint8_t gain_q8) {
-    const S32 step = add_wrap(mul_wide(sub_sat(target, value), U8{gain_q8}), S32{128});
-    return add_wrap(value, narrow_wrap_s16(shift_floor<8>(step)));
+    return lerp_q8(value, target, U8{gain_q8});
 }
 
+/// Forgets surface and samples.
 [[gnu::noinline]] constexpr void drop_map(MapGrid& map) {
     map.has_map = false;
     map.measured = false;
-    map.sample_count = 0;
+    map.has_behind = false;
     map.sinkage_count = 0;
     map.sinkage_valid = false;
+    for (U8& fraction : map.ahead.fraction_q8) fraction = U8{0};
 }
 
 /// Writes nodes from the one after `from` up to `to`: a straight line between the two heights, and
@@ -67,34 +68,40 @@ constexpr U8 fraction_q8_of(U16 split) {
 [[gnu::noinline]] constexpr void fill_line(MapGrid& map, U16 from_q6_bin, S16 from_q4_mm,
                                            U16 to_q6_bin, S16 to_q4_mm) {
     const U16 length = sub_wrap(to_q6_bin, from_q6_bin);
-    const U16 per_length_q16 = div_floor(U16{65535}, length);
-    // Shares of the way in Q16 go up by the same from node to node; they stay below 65536.
-    const U16 share_step_q16 = shift_left_wrap<6>(per_length_q16);
-    U16 node = add_wrap(node_before(from_q6_bin), U16{1});
-    U16 along_q6_bin = sub_wrap(U16{64}, bit_and(from_q6_bin, U16{63}));
-    U16 share_q16 = mul_wrap(along_q6_bin, per_length_q16);
-    for (uint8_t i = 0; i < kNodeCount; ++i) {
-        if (along_q6_bin >= length) break;
-        const U8 share_q8 = narrow_sat_u8(shift_round_half_up<8>(share_q16));
-        node_height(map, node) = lerp_q8(from_q4_mm, to_q4_mm, share_q8);
-        node = add_wrap(node, U16{1});
-        along_q6_bin = add_wrap(along_q6_bin, U16{64});
-        share_q16 = add_wrap(share_q16, share_step_q16);
+    U8 node = add_wrap(node_of(split_place(from_q6_bin)), U8{1});
+    const U8 end = add_wrap(node_of(split_place(to_q6_bin)), U8{1});
+    if (node != end) {
+        const U16 along_q8 = shift_left_wrap<2>(sub_wrap(U16{64}, bit_and(from_q6_bin, U16{63})));
+        const U8 along = narrow_sat_u8(along_q8);
+        // The way from node to node; with one node in the way only that of `from` to it.
+        const bool one = add_wrap(node, U8{1}) == end;
+        const U16 way = one ? shift_left_wrap<6>(along_q8) : U16{16384};
+        const U8 share_q8 = narrow_sat_u8(div_floor(add_wrap(way, halve_floor(length)), length));
+        S16 height = lerp_q8(from_q4_mm, to_q4_mm, share_q8);
+        if (!one) {
+            const S16 step_q4_mm = sub_wrap(height, from_q4_mm);
+            height = lerp_q8(from_q4_mm, height, along);
+            for (uint8_t i = 0; i < kNodeCount; ++i) {
+                node_height(map, node) = height;
+                node = add_wrap(node, U8{1});
+                if (node == end) break;
+                height = add_wrap(height, step_q4_mm);
+            }
+        } else {
+            node_height(map, node) = height;
+            node = end;
+        }
     }
     node_height(map, node) = to_q4_mm;
-    if (bit_and(to_q6_bin, U16{63}) == U16{0}) {
-        node = add_wrap(node, U16{1});
-        node_height(map, node) = to_q4_mm;
-    }
-    const U16 oldest_q6_bin = sub_wrap(shift_left_wrap<6>(node), U16{(kNodeCount - 1u) * 64u});
+    const U16 beyond = shift_left_wrap<6>(add_wrap(node_before(to_q6_bin), U16{1}));
+    const U16 oldest_q6_bin = sub_wrap(beyond, U16{(kNodeCount - 1u) * 64u});
     if (ahead_of(map.lowest_q6_bin, oldest_q6_bin) > S16{0}) map.lowest_q6_bin = oldest_q6_bin;
 }
 
 /// Starts a map from the three contacts: straight lines between them. Ground counts as measured
 /// from the front wheel's place on.
-constexpr void begin_map(MapGrid& map, const MapGridInput& input) {
+constexpr void begin_map(MapGrid& map, const MapGridInput& input, U16 front) {
     const U16 middle = add_wrap(map.place_q6_bin, input.middle_distance_q6_bin);
-    const U16 front = add_wrap(map.place_q6_bin, input.front_distance_q6_bin);
     const U16 rear_node = node_before(map.place_q6_bin);
     map.lowest_q6_bin = shift_left_wrap<6>(rear_node);
     node_height(map, rear_node) = S16{0};
@@ -103,6 +110,7 @@ constexpr void begin_map(MapGrid& map, const MapGridInput& input) {
     map.front_place_q6_bin = front;
     map.front_height_q4_mm = input.front_height_q4_mm;
     map.front_height_before_q4_mm = input.front_height_q4_mm;
+    map.passed_bin = node_of(split_place(front));
     map.measured_from_q6_bin = front;
     map.measured = false;
     map.has_map = true;
@@ -120,6 +128,7 @@ constexpr void start_on_known_ground(MapGrid& map, const S16 (&surface_q4_mm)[kK
     map.place_q6_bin = U16{0};
     map.lowest_q6_bin = U16{0};
     map.measured_from_q6_bin = U16{0};
+    map.passed_bin = U8{kKnownNodes - 1u};
     map.front_place_q6_bin = U16{(kKnownNodes - 1u) * 64u};
     map.front_height_q4_mm = front_q4_mm;
     map.front_height_before_q4_mm = front_q4_mm;
@@ -132,36 +141,34 @@ constexpr void start_on_known_ground(MapGrid& map, const S16 (&surface_q4_mm)[kK
 constexpr void learn_roughness(MapGrid& map, S16 front_height_q4_mm) {
     const S16 step = sub_wrap(front_height_q4_mm, map.front_height_q4_mm);
     const S16 step_before = sub_wrap(map.front_height_q4_mm, map.front_height_before_q4_mm);
-    const U16 bend_q4_mm = abs_u16(sub_sat(step, step_before));
-    const U16 bend_q8_mm = min(shift_left_sat<4>(bend_q4_mm), U16{kRoughMaxQ8Mm});
-    map.rough_q8_mm =
-        narrow_wrap_u16(approach(narrow_wrap_s16(map.rough_q8_mm), narrow_wrap_s16(bend_q8_mm),
-                                 kLearnGainQ8[map.rough_count]));
+    const U16 bend_q4_mm = min(abs_u16(sub_wrap(step, step_before)), U16{kBendMaxQ4Mm});
+    map.rough_q8_mm = narrow_wrap_u16(approach(narrow_wrap_s16(map.rough_q8_mm),
+                                               narrow_wrap_s16(shift_left_wrap<4>(bend_q4_mm)),
+                                               kLearnGainQ8[map.rough_count]));
     if (map.rough_count < kLearnSteps) ++map.rough_count;
 }
 
 /// Extends the map to the front wheel and splits the middle wheel's misfit over its two nodes.
 /// @return  height of the rear contact, s16 Q4 mm: mean of what rear and middle wheel say
-constexpr S16 extend_map(MapGrid& map, const MapGridInput& input) {
+constexpr S16 extend_map(MapGrid& map, const MapGridInput& input, U16 front) {
     const U16 middle = add_wrap(map.place_q6_bin, input.middle_distance_q6_bin);
     const S16 by_rear = surface_at(map, map.place_q6_bin);
     const S16 by_middle = sub_wrap(surface_at(map, middle), input.middle_height_q4_mm);
-    const S16 rear = add_wrap(by_rear, halve_floor(sub_wrap(by_middle, by_rear)));
-    const S16 front_height = add_wrap(rear, input.front_height_q4_mm);
-    const U16 front = add_wrap(map.place_q6_bin, input.front_distance_q6_bin);
+    const S16 half = halve_floor(sub_wrap(by_middle, by_rear));
+    const S16 rear = add_wrap(by_rear, half);
+    const S16 quarter = halve_floor(half);
+    const U8 node = node_of(split_place(middle));
+    node_height(map, node) = sub_wrap(node_height(map, node), quarter);
+    const U8 next = add_wrap(node, U8{1});
+    node_height(map, next) = sub_wrap(node_height(map, next), quarter);
     if (ahead_of(map.front_place_q6_bin, front) >= S16{0}) {
+        const S16 front_height = add_wrap(rear, input.front_height_q4_mm);
         fill_line(map, map.front_place_q6_bin, map.front_height_q4_mm, front, front_height);
         learn_roughness(map, front_height);
         map.front_height_before_q4_mm = map.front_height_q4_mm;
         map.front_place_q6_bin = front;
         map.front_height_q4_mm = front_height;
     }
-    const S16 misfit = sub_wrap(add_wrap(rear, input.middle_height_q4_mm), surface_at(map, middle));
-    const S16 half = shift_round_half_up<1>(misfit);
-    const U16 node = node_before(middle);
-    node_height(map, node) = add_wrap(node_height(map, node), half);
-    const U16 next = add_wrap(node, U16{1});
-    node_height(map, next) = add_wrap(node_height(map, next), half);
     return rear;
 }
 

@@ -67,17 +67,31 @@ double MapGridDouble::residual(long node, const MapGridInput& input) {
            (surface_at(static_cast<double>(node) * tuning_.bin_cm + input.d1_cm) - at(node));
 }
 
+/// 1.6 cm halved zero to seven times, whichever is nearest to 1.04 sigma on a logarithmic scale:
+/// with the square root of 3/2 / (2 ln 2) = 1.04 squared misfits are right on average.
+double MapGridDouble::nearest_octave(double sigma_cm) const {
+    const double halvings =
+        std::round(std::log2(tuning_.sigma_max_cm / std::max(1.04 * sigma_cm, 1e-9)));
+    return tuning_.sigma_max_cm *
+           std::exp2(-std::clamp(halvings, 0.0,
+                                 std::log2(tuning_.sigma_max_cm / tuning_.sigma_floor_cm)));
+}
+
 double MapGridDouble::match(const MapGridInput& input) {
     const double widen =
         std::clamp(tuning_.sigma_per_cost * match_cost_, 1.0, tuning_.sigma_widen_max);
-    const double sigma =
-        std::max(tuning_.sigma_per_rough * rough_cm_, tuning_.sigma_floor_cm) * widen;
+    const double sigma = nearest_octave(tuning_.sigma_per_rough * rough_cm_ * widen);
     const double half = tuning_.bin_cm / 2;
     const double mean = prior_mean_cm_ + input.odometer_cm - tuning_.prior_mean_cm;
-    const long first = static_cast<long>(std::ceil(position_cm_ / half));
+    // Four half bins to both sides of the expected place, from a whole bin on; none before the bin
+    // of the rear wheel.
+    const double expected = position_cm_ + std::max(0.0, mean);
+    const long first = 2 * static_cast<long>(std::floor(expected / tuning_.bin_cm - 1.5));
+    const long here = 2 * static_cast<long>(std::floor(position_cm_ / tuning_.bin_cm));
+    const int nearest = static_cast<int>(std::max(0L, here - first));
     std::array<double, kHalfBins + 1> cost{}, fit{};
-    int best = 0;
-    for (int i = 0; i <= kHalfBins; ++i) {
+    int best = nearest;
+    for (int i = nearest; i <= kHalfBins; ++i) {
         const long place = first + i;
         const long node = place >> 1;
         const double e = (place & 1) != 0 ? (residual(node, input) + residual(node + 1, input)) / 2
@@ -92,7 +106,7 @@ double MapGridDouble::match(const MapGridInput& input) {
     double fine = best;
     const double prior_variance = tuning_.prior_sigma_cm * tuning_.prior_sigma_cm;
     double variance = prior_variance;
-    if (best > 0 && best < kHalfBins) {
+    if (best > nearest && best < kHalfBins) {
         const double bend = cost[b - 1] - 2 * cost[b] + cost[b + 1];
         if (bend > 0) {
             fine += 0.5 * (cost[b - 1] - cost[b + 1]) / bend;
@@ -102,7 +116,7 @@ double MapGridDouble::match(const MapGridInput& input) {
     variance_cm2_ += variance;
     if (variance > kUninformedShare * prior_variance) drift_cm_ += mean / kDriftDivisor;
     judge(cost[b]);
-    if (fit[b] > tuning_.credible_fit && (best == 0 || best == kHalfBins))
+    if (fit[b] > tuning_.credible_fit && (best == nearest || best == kHalfBins))
         return std::max(0.0, mean);
     return std::max(0.0, (static_cast<double>(first) + fine) * half - position_cm_);
 }

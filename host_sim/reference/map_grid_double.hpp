@@ -14,10 +14,11 @@ namespace host_sim {
 /// Tuning of the estimator. The defaults are what the firmware flies.
 struct MapGridTuning {
     double bin_cm = 2.5;
-    double prior_mean_cm = 6.0;     ///< advance of a wheel that does not slip
-    double prior_sigma_cm = 1.25;   ///< spread of the advance in one cycle
-    double sigma_per_rough = 0.25;  ///< residual sigma over mean second difference
-    double sigma_floor_cm = 0.01;
+    double prior_mean_cm = 6.0;      ///< advance of a wheel that does not slip
+    double prior_sigma_cm = 1.25;    ///< spread of the advance in one cycle
+    double sigma_per_rough = 0.25;   ///< residual sigma over mean second difference
+    double sigma_max_cm = 1.6;       ///< ... rounded to this by powers of two,
+    double sigma_floor_cm = 0.0125;  ///< ... and not below this
     double sigma_per_cost = 0.7;     ///< residual sigma widens with the running match cost ...
     double sigma_widen_max = 3.0;    ///< ... by at most this factor
     double cost_cap = 16;            ///< cost of one cycle in the running mean
@@ -108,6 +109,7 @@ private:
     void begin_map(const MapGridInput& input);
     bool can_match(const MapGridInput& input) const;
     double match(const MapGridInput& input);
+    [[nodiscard]] double nearest_octave(double sigma_cm) const;
     double residual(long node, const MapGridInput& input);
     void learn(double advance_cm);
     void extend(const MapGridInput& input);

@@ -72,18 +72,19 @@ void add(Record& record, const rover::MapGrid& value) {
     record.field("map.learned", value.learned);
     record.field("map.rough_count", value.rough_count);
     record.field("map.spread_q6_bin", value.spread_q6_bin);
+    record.field("map.spread_rest_q12", value.spread_rest_q12);
     record.field("map.variance_q12", value.variance_q12);
     record.field("map.drift_q12_bin", value.drift_q12_bin);
-    for (const rover::GroundSample& sample : value.sample) {
-        record.field("map.sample.place_q6_bin", sample.place_q6_bin);
-        record.field("map.sample.height_q4_mm", sample.height_q4_mm);
-    }
-    record.field("map.sample_first", value.sample_first);
-    record.field("map.sample_count", value.sample_count);
+    record.field("map.ahead.height_q4_mm", value.ahead.height_q4_mm);
+    record.field("map.ahead.fraction_q8", value.ahead.fraction_q8);
+    record.field("map.passed_bin", value.passed_bin);
+    record.field("map.has_behind", value.has_behind);
+    record.field("map.behind_place_q8_bin", value.behind_place_q8_bin);
+    record.field("map.behind_height_q4_mm", value.behind_height_q4_mm);
     record.field("map.sinkage_count", value.sinkage_count);
     record.field("map.sinkage_valid", value.sinkage_valid);
-    record.field("map.sinkage_smooth_q6_mm", value.sinkage_smooth_q6_mm);
-    record.field("map.sinkage_size_q8_mm", value.sinkage_size_q8_mm);
+    record.field("map.sinkage_smooth_q5_mm", value.sinkage_smooth_q5_mm);
+    record.field("map.sinkage_size_q11_mm", value.sinkage_size_q11_mm);
     record.field("map.sinkage_q4_mm", value.sinkage_q4_mm);
     record.field("map.mode", value.mode);
     record.field("map.slip_alarm", value.slip_alarm);

@@ -17,6 +17,7 @@ struct Table {
     std::string name;                  ///< "kSineQuarterQ16"
     std::vector<std::string> purpose;  ///< comment lines: contents, use, error bound
     std::string element = "uint16_t";  ///< element type
+    bool page = false;  ///< 256 bytes in one page: the index is the low byte of the address
     std::vector<int32_t> values;
 };
 
@@ -34,7 +35,8 @@ Table arctangent_table();
 Table square_table(const std::string& name, int entries, double scale,
                    const std::string& file = "square_table.hpp");
 
-/// Squares of the flying estimator: index 1/16 sigma, entry 1/64 of a squared sigma.
+/// Squares of the flying estimator: index 1/8 sigma rounded down, plus 128; entry 1/8 of a squared
+/// sigma, that of the middle of the step.
 Table match_square_table();
 
 /// Every table of the firmware.

@@ -15,7 +15,6 @@ using namespace rover;
 
 /// What must hold after every step; nothing if it does.
 const char* broken(const MapGrid& map, const MapGrid& before) {
-    if (map.sample_count > slip::kSampleCount) return "sample_count";
     if (map.sinkage_count > slip::kSizeSteps) return "sinkage_count";
     if (map.learned > slip::kLearnSteps || map.rough_count > slip::kLearnSteps) return "learned";
     if (map.mean_q12_bin < slip::kMeanMinQ12Bin || map.mean_q12_bin > slip::kMeanNoSlipQ12Bin) {
@@ -26,7 +25,9 @@ const char* broken(const MapGrid& map, const MapGrid& before) {
     if (map.mode > SlipMode::moved) return "mode";
     if (map.measured && !map.has_map) return "measured without a map";
     if (map.sinkage_q4_mm < 0) return "sinkage";
-    if (map.sinkage_valid && map.sample_count < 2) return "sinkage_valid";
+    if (map.sinkage_valid && !map.has_behind) return "sinkage_valid";
+    if (map.spread_q6_bin < before.spread_q6_bin) return "spread fell";
+    if (map.spread_q6_bin > slip::kSpreadMaxQ6Bin) return "spread";
     if (map.variance_q12 < before.variance_q12) return "variance fell";
     if (map.drift_q12_bin < before.drift_q12_bin) return "drift fell";
     if (map.advance_q6_bin < 0 && map.mode != SlipMode::reversing) return "advance";
@@ -35,12 +36,6 @@ const char* broken(const MapGrid& map, const MapGrid& before) {
                                                  static_cast<uint32_t>(before.travelled_q6_bin));
     if (moved != travelled || moved != static_cast<uint16_t>(map.advance_q6_bin)) return "place";
     if (slip::slip_percent(map) < 0 || slip::slip_percent(map) > 84) return "slip_percent";
-    for (uint8_t i = 1; i < map.sample_count; ++i) {
-        const auto gap = ahead_of(sample_at(map, static_cast<uint8_t>(i - 1)).place_q6_bin,
-                                  sample_at(map, i).place_q6_bin);
-        // Places half a lap apart have no order; samples are kept for less than that in flight.
-        if (gap < -16384) return "sample order";
-    }
     return nullptr;
 }
 
@@ -61,7 +56,7 @@ MapGridInput any_input(Bits&& bits, bool plausible) {
     const bool fair = plausible || bits() % 2 == 0;
     input.middle_distance_q6_bin = static_cast<uint16_t>(fair ? small(620, 80) : small(0, 32767));
     input.front_distance_q6_bin = static_cast<uint16_t>(fair ? small(1240, 160) : small(0, 32767));
-    const uint32_t reach = plausible ? 1000 : 6000;  // the far ones fill the list of samples
+    const uint32_t reach = plausible ? 1000 : 6000;  // the far ones are beyond the ring
     for (int i = 0; i < kLookAheadMax; ++i) {
         input.ahead_height_q4_mm[i] = static_cast<int16_t>(bits());
         input.ahead_distance_q6_bin[i] = static_cast<uint16_t>(1400 + bits() % reach);

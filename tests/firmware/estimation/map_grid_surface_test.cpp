@@ -44,20 +44,22 @@ TEST(SurfaceAt, HillsBeyondTheRangeOfHeightsAreOnlyDifferences) {
 }
 
 // Every start and length of the front wheel's step that the estimator can take.
-TEST(FillLine, LeavesNodesOnTheStraightLineWithin1p2PercentOfTheStep) {
+TEST(FillLine, LeavesNodesOnTheStraightLineWithin0p2PercentOfTheRisePerNodeAndOneLsb) {
     for (int from = 1000; from < 1064; from += 7) {
         for (int length = 0; length <= kGapMaxQ6Bin; length += 13) {
             MapGrid map;
             fill_line(map, static_cast<U16>(from), -500, static_cast<U16>(from + length), 700);
-            for (int node = from / 64 + 1; node * 64 < from + length; ++node) {
+            int nodes = 0;
+            for (int node = from / 64 + 1; node * 64 <= from + length; ++node) {
+                ++nodes;
                 const double line = -500 + 1200.0 * (node * 64 - from) / length;
-                // Fraction in 1/256 from a reciprocal in 1/65536, rounded down; and the rounding.
-                const double tolerance = 1200 * (0.5 / 256 + (length + 1) / 65536.0) + 1;
+                // Shares of the rise in 1/256, rounded, at most 255/256; every height is rounded.
+                const double tolerance = nodes * (1200 * (0.5 / 256) + 0.5) + 1200 * (0.5 / 256);
                 ASSERT_NEAR(node_height(map, static_cast<U16>(node)), line, tolerance)
                     << from << " " << length;
             }
-            // The surface has the new height from the first node at or beyond the end on.
-            const int beyond = (from + length + 63) / 64;
+            // The surface has the new height from the first node beyond the end on.
+            const int beyond = (from + length) / 64 + 1;
             ASSERT_EQ(node_height(map, static_cast<U16>(beyond)), 700) << from << " " << length;
         }
     }
@@ -80,11 +82,11 @@ TEST(BeginMap, OnASlopeIsThatSlope) {
         MapGridInput input;
         input.middle_height_q4_mm = 50 * 16;
         input.front_height_q4_mm = 100 * 16;
-        begin_map(map, input);
+        begin_map(map, input, static_cast<uint16_t>(start + 1280));
         for (int ahead = 64; ahead <= 1216; ahead += 11) {
-            // 1.2 % of the 50 mm between two contacts, as for FillLine.
+            // 0.2 % of the 50 mm between two contacts a node, as for FillLine: 2 % in all.
             const double slope_q4_mm = ahead / 64.0 * 5 * 16;
-            ASSERT_NEAR(surface_at(map, static_cast<U16>(start + ahead)), slope_q4_mm, 10) << ahead;
+            ASSERT_NEAR(surface_at(map, static_cast<U16>(start + ahead)), slope_q4_mm, 20) << ahead;
         }
         EXPECT_TRUE(map.has_map);
         EXPECT_FALSE(map.measured);
@@ -97,7 +99,8 @@ TEST(StartOnKnownGround, HoldsTheGivenHeightsAndCountsAsMeasured) {
     for (int node = 0; node < kKnownNodes; ++node) surface[node] = static_cast<S16>(node * node);
     MapGrid map;
     map.place_q6_bin = 777;
-    map.sample_count = 3;
+    map.ahead.fraction_q8[5] = 77;
+    map.has_behind = true;
     start_on_known_ground(map, surface);
     for (int node = 0; node < kKnownNodes; ++node) {
         EXPECT_EQ(surface_at(map, static_cast<U16>(node * 64)), node * node);
@@ -105,15 +108,17 @@ TEST(StartOnKnownGround, HoldsTheGivenHeightsAndCountsAsMeasured) {
     EXPECT_EQ(map.place_q6_bin, 0);
     EXPECT_EQ(map.front_place_q6_bin, 1280);
     EXPECT_EQ(map.front_height_q4_mm, 400);
-    EXPECT_EQ(map.sample_count, 0);
+    EXPECT_EQ(map.ahead.fraction_q8[5], 0);
+    EXPECT_FALSE(map.has_behind);
+    EXPECT_EQ(map.passed_bin, 20);
     EXPECT_TRUE(map.has_map && map.measured);
 }
 
 TEST(Approach, IsAStepTowardsTheTargetRoundedHalfUp) {
     for (int value = -30000; value <= 30000; value += 1013) {
         for (int target = -30000; target <= 30000; target += 997) {
-            const int difference = std::min(32767, std::max(-32768, target - value));
-            const double step = std::floor(difference * 9 / 256.0 + 0.5);
+            if (std::abs(target - value) > 32767) continue;
+            const double step = std::floor((target - value) * 9 / 256.0 + 0.5);
             ASSERT_EQ(approach(static_cast<S16>(value), static_cast<S16>(target), 9), value + step);
         }
     }
@@ -134,7 +139,7 @@ TEST(LearnRoughness, ReachesTheMeanSecondDifference) {
 TEST(LearnRoughness, SaturatesAt128Millimetres) {
     MapGrid map;
     for (int i = 0; i < 1000; ++i) {
-        const S16 height = i % 2 == 0 ? S16{16000} : S16{-16000};
+        const S16 height = i % 2 == 0 ? S16{8000} : S16{-8000};
         learn_roughness(map, height);
         map.front_height_before_q4_mm = map.front_height_q4_mm;
         map.front_height_q4_mm = height;
@@ -153,7 +158,7 @@ TEST(ExtendMap, SplitsTheMisfitBetweenRearAndMiddleWheel) {
     MapGridInput input;
     input.middle_height_q4_mm = 8 * 16;
     input.front_height_q4_mm = 0;
-    EXPECT_EQ(extend_map(map, input), -4 * 16);
+    EXPECT_EQ(extend_map(map, input, 32 + 1280), -4 * 16);
     EXPECT_EQ(node_height(map, U16{10}), 2 * 16);
     EXPECT_EQ(node_height(map, U16{11}), 2 * 16);
     EXPECT_EQ(node_height(map, U16{9}), 0);
@@ -168,7 +173,7 @@ TEST(ExtendMap, ARetreatingFrontWheelChangesNothingAhead) {
     map.front_place_q6_bin = 1400;
     MapGridInput input;
     input.front_height_q4_mm = 999;
-    extend_map(map, input);
+    extend_map(map, input, 1280);
     EXPECT_EQ(map.front_place_q6_bin, 1400);
     EXPECT_EQ(map.front_height_q4_mm, 0);
 }

@@ -29,15 +29,20 @@ TEST(SlipTuning, IsTheDoubleModelsWithinRounding) {
     using namespace rover::slip;
     EXPECT_EQ(kBinMm / 10.0, tuning.bin_cm);
     EXPECT_NEAR(kMeanNoSlipQ12Bin / 4096.0 * 2.5, tuning.prior_mean_cm, 0.0005);
-    // 16 steps a sigma: 2^kPriorShift units of 1/4096 bin a step.
-    EXPECT_EQ((1 << kPriorShift) * 16 / 4096.0 * 2.5, tuning.prior_sigma_cm);
+    // A half bin is one sigma of the prior.
+    EXPECT_EQ(tuning.prior_sigma_cm, tuning.bin_cm / 2);
     EXPECT_EQ(kPriorVarianceQ12, std::pow(tuning.prior_sigma_cm / 2.5 * 64, 2));
-    EXPECT_EQ(1.0 / (1 << kSigmaPerRoughShift), tuning.sigma_per_rough);
-    EXPECT_NEAR(kSigmaFloorQ8Mm / 2560.0, tuning.sigma_floor_cm, 0.5 / 2560);
-    EXPECT_NEAR(kWidenPerCostQ8 / 256.0, tuning.sigma_per_cost, 0.5 / 256);
-    EXPECT_EQ(kWidenMaxQ8 / 256.0, tuning.sigma_widen_max);
-    EXPECT_EQ(kCostCapQ6 / 64.0, tuning.cost_cap);
-    EXPECT_EQ(kCredibleFitQ6 / 64.0, tuning.credible_fit);
+    EXPECT_EQ(1.6, tuning.sigma_max_cm);
+    EXPECT_EQ(1.6 / (1 << kScaleMax), tuning.sigma_floor_cm);
+    for (int quarter = 0; quarter <= 16; ++quarter) {
+        const double cost = quarter < 16 ? (quarter + 0.5) / 4 : 4;
+        const double widen = std::clamp(tuning.sigma_per_cost * cost, 1.0, tuning.sigma_widen_max);
+        const double rough_cm =
+            tuning.sigma_max_cm / std::sqrt(2) / 1.04 / widen / tuning.sigma_per_rough;
+        EXPECT_NEAR(kRoughOf16MmQ1[quarter], 20 * rough_cm, 0.6) << quarter;
+    }
+    EXPECT_EQ(kCostCapQ3 / 8.0, tuning.cost_cap);
+    EXPECT_EQ(kCredibleFitQ3 / 8.0, tuning.credible_fit);
     EXPECT_EQ(kReacquireCostQ10 / 1024.0, tuning.reacquire_cost);
     EXPECT_EQ(kAfterLossCostQ10 / 1024.0, tuning.reacquire_cost / 2);
     EXPECT_NEAR(kTrackingCostQ10 / 1024.0, tuning.reacquire_cost / 3, 0.5 / 1024);
@@ -45,10 +50,8 @@ TEST(SlipTuning, IsTheDoubleModelsWithinRounding) {
     EXPECT_EQ(kSlipAlarmCostQ10 / 1024.0, tuning.slip_alarm_cost);
     EXPECT_EQ(kSlipAlarmPercent, tuning.slip_alarm_percent);
     EXPECT_EQ(kSinkageAlarmQ4Mm / 160.0, tuning.sinkage_alarm_cm);
-    EXPECT_NEAR(kMergeQ6Bin * 2.5 / 64, tuning.look_merge_cm, 2.5 / 128);
-    EXPECT_NEAR(kLookNoiseQ8Mm / 2560.0, 0.82 * tuning.look_sigma_cm, 0.5 / 2560);
-    EXPECT_NEAR(kLookPerRoughQ8 / 256.0, tuning.look_per_rough, 0.5 / 256);
-    EXPECT_NEAR(kSmoothedShareQ8 / 256.0, std::sqrt(0.25 / (2 - 0.25)), 0.5 / 256);
+    EXPECT_NEAR(kNoiseFloorQ4Mm / 160.0, std::sqrt(0.25 / (2 - 0.25)) * 0.82 * tuning.look_sigma_cm,
+                0.5 / 160);
     EXPECT_NEAR(kPercentPerMeanQ16 / 65536.0, 100.0 / kMeanNoSlipQ12Bin, 0.5 / 65536);
     EXPECT_NEAR(kUninformedVarianceQ12, 0.85 * kPriorVarianceQ12, 0.5);
     for (int n = 0; n <= kLearnSteps; ++n) {
@@ -67,8 +70,8 @@ TEST(SlipPercent, IsThatOfTheLearnedMeanWithinOnePercent) {
 }
 
 // Whole traverses: 2500 bins, so that places (2^16 units of 1/64 bin) wrap twice. Choices between
-// nearly equal minima differ now and then. Measured in 270 runs: 26 cm apart at most, 3 to 5 cm in
-// the median of the runs' worst.
+// nearly equal minima differ now and then, and costs are known in 1/8 of a squared sigma. Measured
+// in 270 runs: 26 cm apart at most, 3 to 5 cm in the median of the runs' worst.
 TEST(MapGrid, StaysWithin0p6PercentOfTheDoubleModelInEveryCycleOf62Metres) {
     for (const double roughness : {0.005, 0.02, 0.08}) {
         for (std::uint64_t seed = 740000; seed < 740010; ++seed) {
@@ -84,7 +87,7 @@ TEST(MapGrid, StaysWithin0p6PercentOfTheDoubleModelInEveryCycleOf62Metres) {
                 apart += std::abs(advance_cm - rig.floating.advance_cm()) > 0.5 ? 1 : 0;
             }
             EXPECT_GT(rig.fixed.travelled_q6_bin, 2 * 65536);
-            EXPECT_LE(apart, 0.1 * rig.cycles) << "seed " << seed;
+            EXPECT_LE(apart, 0.2 * rig.cycles) << "seed " << seed;
         }
     }
 }
@@ -276,17 +279,17 @@ TEST(MapGrid, LossOfLockIsReportedOnceAndRaisesTheSlipAlarm) {
     EXPECT_GE(losses, 15);
 }
 
-TEST(PositionSigma, IsSpreadPlusDriftRoundedDownByLessThanAMillimetre) {
+TEST(PositionSigma, IsSpreadPlusDriftRoundedDown) {
     MapGrid map;
-    for (uint32_t variance = 0; variance < 1u << 20; variance += 997) {
-        if (variance > 0) slip::add_variance(map, 997);
-        ASSERT_EQ(map.variance_q12, variance);
-        for (const uint32_t drift : {0u, 5000u, 123456u}) {
+    for (uint16_t spread = 0; spread <= slip::kSpreadMaxQ6Bin; spread += 8) {
+        map.spread_q6_bin = spread;
+        for (const uint32_t drift : {0u, 5000u, 123456u, 400000u}) {
             map.drift_q12_bin = drift;
-            // 1/64 bin is 6.25 units of 1/16 mm; both roots are rounded down.
-            const double sigma = (std::sqrt(variance) + drift / 64.0) * 6.25;
+            // 1/64 bin is 6.25 units of 1/16 mm; the drift is rounded down to it.
+            const double sigma = (spread + drift / 64.0) * 6.25;
+            if (sigma > 65535) continue;
             ASSERT_LE(position_sigma_q4_mm(map), sigma);
-            ASSERT_GE(position_sigma_q4_mm(map), sigma - 2 * 6.25 - 1);
+            ASSERT_GE(position_sigma_q4_mm(map), sigma - 6.25 - 1);
         }
     }
     map.drift_q12_bin = 0xFFFFFFFF;

@@ -71,12 +71,19 @@ TEST(SquareTable, RoundsAndSaturates) {
     EXPECT_EQ(values[255], 65535);
 }
 
-// 16 steps are one sigma, whose square is 64; 255 steps are 15.94 sigma, squared 254.0.
+// 8 steps are one sigma, whose square is 8; step 128 + n lies between n and n + 1.
 TEST(MatchSquareTable, HoldsTheKnownValues) {
-    const auto values = tablegen::match_square_table().values;
-    ASSERT_EQ(values.size(), 256u);
-    EXPECT_EQ(values[16], 64);
-    EXPECT_EQ(values[255], 16256);
+    const auto table = tablegen::match_square_table();
+    ASSERT_EQ(table.values.size(), 256u);
+    EXPECT_EQ(table.values[128], 0);         // 0.03
+    EXPECT_EQ(table.values[128 + 7], 7);     // 7.03
+    EXPECT_EQ(table.values[128 + 8], 9);     // 9.03
+    EXPECT_EQ(table.values[128 - 8], 7);     // -7.5 steps
+    EXPECT_EQ(table.values[128 + 44], 248);  // 247.5
+    EXPECT_EQ(table.values[128 + 45], 255);  // 258.8 saturates
+    EXPECT_EQ(table.values[0], 255);
+    EXPECT_NE(tablegen::render(table).find("alignas(256) inline constexpr uint8_t kSquareQ3[256]"),
+              std::string::npos);
 }
 
 TEST(SquareTable, RefusesImpossibleArguments) {
