@@ -93,7 +93,7 @@ struct ByteReader {
 };
 
 constexpr uint16_t frame_crc(const uint8_t* frame) {
-    return crc16_add(kCrc16Start, frame + 2, kTelemetryHeadSize - 2 + kTelemetryPayloadSize);
+    return crc16_block(kCrc16Start, frame + 2, kTelemetryHeadSize - 2 + kTelemetryPayloadSize);
 }
 
 }  // namespace link
