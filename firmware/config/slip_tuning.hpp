@@ -61,7 +61,6 @@ inline constexpr uint16_t kRoughMaxQ8Mm = kBendMaxQ4Mm * 16u;
 inline constexpr uint8_t kSampleReach = 31;      ///< bins ahead of the front wheel's
 inline constexpr uint8_t kSearchBins = 8;        ///< 20 cm: no sample so far ahead is waited for
 inline constexpr uint16_t kSpanMaxQ8Bin = 4096;  ///< 40 cm between samples: nothing is known
-inline constexpr int16_t kRawMaxQ4Mm = 16383;    ///< 1 m
 inline constexpr uint8_t kNoiseFloorQ4Mm = 10;   ///< 0.378 x 0.82 x 2 mm
 inline constexpr uint16_t kSizeMaxQ5Mm = 511;    ///< 16 mm
 inline constexpr uint8_t kSizeSteps = 31;
@@ -71,13 +70,19 @@ inline constexpr uint8_t kSizeGainQ8[kSizeSteps + 1] = {
     15,  14,  13, 13, 12, 12, 11, 11, 10, 10, 9,  9,  9,  9,  8,  8};
 
 // -- Position uncertainty -------------------------------------------------------------------------
-inline constexpr uint16_t kSpreadStepQ6Bin = 8;          ///< 3.1 mm
-inline constexpr uint8_t kSpreadStepsMax = 2;            ///< a cycle
-inline constexpr uint16_t kSpreadMaxQ6Bin = 4000;        ///< 1.6 m; 16 times that fit in a word
-inline constexpr uint32_t kDriftPerLossQ12Bin = 8192;    ///< 5 cm for each loss of lock
-inline constexpr uint32_t kDriftPerMoveQ12Bin = 4096;    ///< 2.5 cm when moved by hand
-inline constexpr uint32_t kDriftPerTurnQ12Bin = 819;     ///< 0.5 cm per turning cycle
-inline constexpr uint16_t kUninformedVarianceQ12 = 870;  ///< 0.85 of the prior's variance
+inline constexpr uint16_t kSpreadStepQ6Bin = 8;           ///< 3.1 mm
+inline constexpr uint8_t kSpreadStepsMax = 2;             ///< a cycle
+inline constexpr uint16_t kSpreadMaxQ6Bin = 4000;         ///< 1.6 m; 16 times that fit in a word
+inline constexpr uint32_t kDriftReportedQ12Bin = 671089;  ///< 4.096 m: more is not told
+inline constexpr uint32_t kDriftPerLossQ12Bin = 8192;     ///< 5 cm for each loss of lock
+inline constexpr uint32_t kDriftPerMoveQ12Bin = 4096;     ///< 2.5 cm when moved by hand
+inline constexpr uint32_t kDriftPerTurnQ12Bin = 819;      ///< 0.5 cm per turning cycle
+inline constexpr uint16_t kBendInformedQ3 = 19;  ///< below: 0.85 of the prior's variance or more
+/// Variance 2^14 / bend of a parabola in quarters of (1/64 bin)^2, by sixteenths of the bend.
+inline constexpr uint8_t kVarianceQ10[32] = {
+    0,  164, 102, 73, 57, 47, 39, 34, 30, 27, 24, 22, 20, 19, 18, 17,
+    16, 15,  14,  13, 12, 12, 11, 11, 10, 10, 10, 9,  9,  9,  8,  8,
+};
 
 // -- Alarms ---------------------------------------------------------------------------------------
 inline constexpr uint16_t kSlipAlarmCostQ10 = 3840;  ///< 3.75

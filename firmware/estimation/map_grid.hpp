@@ -1,12 +1,11 @@
 // map_grid.hpp - slip and sinkage from articulation, the estimator that flies: one cycle.
-// Depends on   map_grid_match.hpp, map_grid_surface.hpp, map_grid_sinkage.hpp, core/isqrt.hpp.
+// Depends on   map_grid_match.hpp, map_grid_surface.hpp, map_grid_sinkage.hpp.
 // Source       Wilcox 1994; changes and why in docs/design/slip-and-sinkage.md.
 // Bounds       no heap, no recursion; state in MapGrid. Any sequence of inputs leaves a defined
 //              state (MapGrid.AnyInputSequenceLeavesADefinedState).
 // Tests        tests/firmware/estimation/map_grid_test.cpp
 #pragma once
 
-#include "firmware/core/isqrt.hpp"
 #include "firmware/estimation/map_grid_match.hpp"
 #include "firmware/estimation/map_grid_sinkage.hpp"
 
@@ -89,7 +88,8 @@ constexpr void step_forward(MapGrid& map, const MapGridInput& input) {
         move_by(map, advance);
         learn_advance(map, advance);
     } else {
-        const S16 expected = shift_round_half_up<6>(expected_advance_q12_bin(map, input));
+        const S16 expected =
+            shift_floor<6>(add_wrap(expected_advance_q12_bin(map, input), S16{32}));
         move_by(map, max(expected, S16{0}));
         add_odometry_doubt(map, map.advance_q6_bin);
         map.mode = linkage ? SlipMode::reacquiring : SlipMode::odometry_only;
@@ -133,9 +133,13 @@ constexpr S8 slip_percent(const MapGrid& map) {
 
 /// One sigma of the position, u16 Q4 mm, saturating: covers the error in 90 % of drives.
 constexpr U16 position_sigma_q4_mm(const MapGrid& map) {
-    const U32 total_q6 = add_sat(widen_u32(map.spread_q6_bin), shift_floor<6>(map.drift_q12_bin));
+    if (map.drift_q12_bin >= U32{slip::kDriftReportedQ12Bin}) return U16{65535};
+    const U16 drift_q6_bin = narrow_wrap_u16(shift_floor<6>(map.drift_q12_bin));
+    const U16 total_q6_bin = add_sat(map.spread_q6_bin, drift_q6_bin);
+    if (total_q6_bin > U16{10485}) return U16{65535};
     // 1/64 bin is 25/4 units of 1/16 mm.
-    return narrow_sat_u16(shift_floor<2>(mul_wide(narrow_sat_u16(total_q6), U16{slip::kBinMm})));
+    const U16 twice = shift_left_wrap<1>(total_q6_bin);
+    return add_wrap(add_wrap(twice, shift_left_wrap<1>(twice)), shift_floor<2>(total_q6_bin));
 }
 
 }  // namespace rover

@@ -31,9 +31,11 @@ constexpr U8 square_q3(U8 steps) {
     return kSquareQ3[index_of(steps)];
 }
 
-/// Expected advance of this cycle: the learned mean of a 6 cm cycle and the odd bit of odometry.
+/// Expected advance of this cycle: the learned mean of a 6 cm cycle and the odd bit of odometry,
+/// which counts from 0 to 20 cm.
 constexpr S16 expected_advance_q12_bin(const MapGrid& map, const MapGridInput& input) {
-    const S16 odometer = clamp(input.odometer_q6_bin, S16{0}, S16{511});
+    S16 odometer = input.odometer_q6_bin;
+    if (narrow_wrap_u16(odometer) > U16{511}) odometer = odometer < S16{0} ? S16{0} : S16{511};
     return add_wrap(map.mean_q12_bin,
                     sub_wrap(shift_left_wrap<6>(odometer), S16{kMeanNoSlipQ12Bin}));
 }
@@ -152,7 +154,10 @@ constexpr void fit_parabola(U8 before, U8 least, U8 after, Parabola& result) {
     const U16 bend =
         add_wrap(widen_u16(sub_wrap(before, least)), widen_u16(sub_wrap(after, least)));
     if (bend == U16{0}) return;
-    if (bend > U16{16}) result.variance_q12 = div_floor(U16{16384}, bend);
+    if (bend >= U16{kBendInformedQ3}) {
+        const U8 sixteenth = narrow_wrap_u8(shift_floor<8>(shift_left_wrap<4>(bend)));
+        result.variance_q12 = shift_left_wrap<2>(widen_u16(U8{kVarianceQ10[index_of(sixteenth)]}));
+    }
     const bool ahead = before >= after;
     const U16 rest = widen_u16(ahead ? sub_wrap(before, after) : sub_wrap(after, before));
     const S16 offset =
@@ -161,15 +166,16 @@ constexpr void fit_parabola(U8 before, U8 least, U8 after, Parabola& result) {
 }
 
 /// Adds to the variance of the position and follows with its root: rounded down to a multiple of
-/// kSpreadStepQ6Bin, at most kSpreadStepsMax such steps a cycle.
+/// kSpreadStepQ6Bin, at most kSpreadStepsMax such steps a cycle. The variance wraps after 4 million
+/// cycles (250 km) at least.
 constexpr void add_variance(MapGrid& map, U16 variance_q12) {
-    map.variance_q12 = add_sat(map.variance_q12, widen_u32(variance_q12));
-    U16 rest = add_sat(map.spread_rest_q12, variance_q12);
+    map.variance_q12 = add_wrap(map.variance_q12, widen_u32(variance_q12));
+    if (map.spread_q6_bin >= U16{kSpreadMaxQ6Bin}) return;
+    U16 rest = add_wrap(map.spread_rest_q12, variance_q12);
     for (uint8_t i = 0; i < kSpreadStepsMax; ++i) {
         // (s + 8)^2 = s^2 + 16 s + 64
         const U16 next = add_wrap(shift_left_wrap<4>(map.spread_q6_bin), U16{64});
         if (rest < next) break;
-        if (map.spread_q6_bin >= U16{kSpreadMaxQ6Bin}) break;
         rest = sub_wrap(rest, next);
         map.spread_q6_bin = add_wrap(map.spread_q6_bin, U16{kSpreadStepQ6Bin});
     }
@@ -180,7 +186,7 @@ constexpr void add_variance(MapGrid& map, U16 variance_q12) {
 /// @return  s16 1/64 bin, [0, kReachQ6Bin + kBeyondQ6Bin]
 [[gnu::noinline]] constexpr S16 match_advance(MapGrid& map, const MapGridInput& input) {
     const S16 expected_q12 = expected_advance_q12_bin(map, input);
-    const S16 expected_q6 = max(shift_round_half_up<6>(expected_q12), S16{0});
+    const S16 expected_q6 = max(shift_floor<6>(add_wrap(expected_q12, S16{32})), S16{0});
     // Four half bins to both sides of the half bin nearest to the expected place.
     const U16 expected = add_wrap(map.place_q6_bin, narrow_wrap_u16(expected_q6));
     const U16 node = shift_floor<6>(sub_wrap(expected, U16{96}));
@@ -200,7 +206,7 @@ constexpr void add_variance(MapGrid& map, U16 variance_q12) {
         fit_parabola(least[-1], match.least_q3, least[1], minimum);
     }
     add_variance(map, minimum.variance_q12);
-    if (minimum.variance_q12 > U16{kUninformedVarianceQ12}) {
+    if (minimum.variance_q12 == U16{kPriorVarianceQ12}) {
         const S16 share_q12 = shift_floor<2>(expected_q6);  // mean / 256: q6 << 6 >> 8
         map.drift_q12_bin = add_sat(map.drift_q12_bin, widen_u32(narrow_wrap_u16(share_q12)));
     }
@@ -211,11 +217,11 @@ constexpr void add_variance(MapGrid& map, U16 variance_q12) {
     return max(ahead_of(map.place_q6_bin, place), S16{0});
 }
 
-/// Moves the learned mean towards an observed advance.
+/// Moves the learned mean towards an observed advance, 1/64 bin [0, 511].
 constexpr void learn_advance(MapGrid& map, S16 advance_q6_bin) {
-    map.mean_q12_bin = clamp(
-        approach(map.mean_q12_bin, shift_left_sat<6>(advance_q6_bin), kLearnGainQ8[map.learned]),
-        S16{kMeanMinQ12Bin}, S16{kMeanNoSlipQ12Bin});
+    const S16 mean = lerp_at(map.mean_q12_bin, shift_left_wrap<6>(advance_q6_bin),
+                             U8{kLearnGainQ8[map.learned]});
+    map.mean_q12_bin = clamp(mean, S16{kMeanMinQ12Bin}, S16{kMeanNoSlipQ12Bin});
     if (map.learned < kLearnSteps) ++map.learned;
 }
 

@@ -69,9 +69,10 @@ constexpr U8 believed_share_q7(const MapGrid& map) {
 }
 
 /// Smooths one raw sinkage and shrinks it; never negative.
+/// @param raw_q4_mm  modulo 2 m: more than 1 m counts as less than nothing
 constexpr void smooth_sinkage(MapGrid& map, S16 raw_q4_mm) {
     const uint8_t count = map.sinkage_count;
-    const S16 raw = shift_left_wrap<1>(clamp(raw_q4_mm, S16{-kRawMaxQ4Mm}, S16{kRawMaxQ4Mm}));
+    const S16 raw = shift_left_wrap<1>(raw_q4_mm);
     S16 smooth = raw;
     if (count > 0) {
         const S16 way = sub_wrap(raw, map.sinkage_smooth_q5_mm);
@@ -81,7 +82,7 @@ constexpr void smooth_sinkage(MapGrid& map, S16 raw_q4_mm) {
     map.sinkage_smooth_q5_mm = smooth;
     const U16 size_q5 = abs_u16(smooth);
     const S16 size_q11 = narrow_wrap_s16(shift_left_wrap<6>(min(size_q5, U16{kSizeMaxQ5Mm})));
-    map.sinkage_size_q11_mm = approach(map.sinkage_size_q11_mm, size_q11, kSizeGainQ8[count]);
+    map.sinkage_size_q11_mm = lerp_at(map.sinkage_size_q11_mm, size_q11, U8{kSizeGainQ8[count]});
     if (count < kSizeSteps) ++map.sinkage_count;
     S16 sinkage{0};
     if (smooth > S16{0}) {
@@ -127,7 +128,7 @@ constexpr bool ground_at_front(const MapGrid& map, U16 split, S16& ground_q4_mm)
             const U8 along_q4 = narrow_wrap_u8(shift_floor<4>(along));
             const U8 share = shift_left_wrap<2>(ratio_q6(along_q4, span_q4));
             ground_q4_mm =
-                lerp_q8(map.behind_height_q4_mm, map.ahead.height_q4_mm[ring_index(bin)], share);
+                lerp_at(map.behind_height_q4_mm, map.ahead.height_q4_mm[ring_index(bin)], share);
             return true;
         }
         bin = add_wrap(bin, U8{1});

@@ -33,13 +33,15 @@ struct MapGridInput {
 
 /// Ground seen ahead, one sample a bin: that of bin n lives at n modulo 32.
 struct GroundAhead {
-    S16 height_q4_mm[slip::kNodeCount] = {};
+    alignas(64) S16 height_q4_mm[slip::kNodeCount] = {};
     U8 fraction_q8[slip::kNodeCount] = {};  ///< of the bin, lowest bit set; 0: no sample
 };
 
 struct MapGrid {
+    // Rings lie within a page: the 8085 then adds a subscript to the low byte of the address alone.
     // Load-bearing surface L = y - s at whole bins; node n lives at n modulo 32.
-    S16 surface_q4_mm[slip::kNodeCount] = {};
+    alignas(64) S16 surface_q4_mm[slip::kNodeCount] = {};
+    GroundAhead ahead{};
     bool has_map = false;
     bool measured = false;        ///< the rear wheel stands on ground that the front wheel measured
     U16 lowest_q6_bin{0};         ///< place of the oldest node that is still in the ring
@@ -61,7 +63,6 @@ struct MapGrid {
     U32 variance_q12{0};     ///< of the position, (1/64 bin)^2
     U32 drift_q12_bin{0};    ///< systematic part of the position uncertainty
 
-    GroundAhead ahead{};
     U8 passed_bin{0};            ///< bins before this one have been passed by the front wheel
     bool has_behind = false;     ///< `behind` is the last sample that the front wheel passed
     U16 behind_place_q8_bin{0};  ///< modulo 256 bins

@@ -40,17 +40,17 @@ constexpr U8 fraction_q8_of(U16 split) {
     return narrow_wrap_u8(split);
 }
 
+/// a + (b - a) * fraction / 256, rounded half up. The difference must fit in an S16.
+[[gnu::noinline]] constexpr S16 lerp_at(S16 a, S16 b, U8 fraction_q8) {
+    return lerp_q8(a, b, fraction_q8);
+}
+
 /// Surface at any place, s16 Q4 mm: linear between nodes, rounded half up.
 [[gnu::noinline]] constexpr S16 surface_at(const MapGrid& map, U16 place_q6_bin) {
     const U16 split = split_place(place_q6_bin);
     const U8 node = node_of(split);
-    return lerp_q8(node_height(map, node), node_height(map, add_wrap(node, U8{1})),
+    return lerp_at(node_height(map, node), node_height(map, add_wrap(node, U8{1})),
                    fraction_q8_of(split));
-}
-
-/// value + (target - value) * gain / 256, rounded half up. The difference must fit in an S16.
-[[gnu::noinline]] constexpr S16 approach(S16 value, S16 target, uint8_t gain_q8) {
-    return lerp_q8(value, target, U8{gain_q8});
 }
 
 /// Forgets surface and samples.
@@ -63,38 +63,37 @@ constexpr U8 fraction_q8_of(U16 split) {
     for (U8& fraction : map.ahead.fraction_q8) fraction = U8{0};
 }
 
-/// Writes nodes from the one after `from` up to `to`: a straight line between the two heights, and
-/// the first node beyond `to` at the height of `to`, so that the surface has a value up to there.
-[[gnu::noinline]] constexpr void fill_line(MapGrid& map, U16 from_q6_bin, S16 from_q4_mm,
-                                           U16 to_q6_bin, S16 to_q4_mm) {
-    const U16 length = sub_wrap(to_q6_bin, from_q6_bin);
+/// Moves the front end of the map to a new place and height: nodes in between lie on a straight
+/// line, and the first node beyond gets the new height, so that the surface has a value up to
+/// there.
+/// @param to_q6_bin  at most 1408 ahead of the last
+[[gnu::noinline]] constexpr void fill_to(MapGrid& map, U16 to_q6_bin, S16 to_q4_mm) {
+    const U16 from_q6_bin = map.front_place_q6_bin;
+    const S16 from_q4_mm = map.front_height_q4_mm;
+    map.front_place_q6_bin = to_q6_bin;
+    map.front_height_q4_mm = to_q4_mm;
+    const U16 beyond = add_wrap(node_before(to_q6_bin), U16{1});
+    const U8 end = narrow_wrap_u8(beyond);
     U8 node = add_wrap(node_of(split_place(from_q6_bin)), U8{1});
-    const U8 end = add_wrap(node_of(split_place(to_q6_bin)), U8{1});
     if (node != end) {
-        const U16 along_q8 = shift_left_wrap<2>(sub_wrap(U16{64}, bit_and(from_q6_bin, U16{63})));
-        const U8 along = narrow_sat_u8(along_q8);
+        const U16 length = sub_wrap(to_q6_bin, from_q6_bin);
+        const U16 along_q8 =
+            sub_wrap(U16{256}, widen_u16(fraction_q8_of(split_place(from_q6_bin))));
         // The way from node to node; with one node in the way only that of `from` to it.
         const bool one = add_wrap(node, U8{1}) == end;
         const U16 way = one ? shift_left_wrap<6>(along_q8) : U16{16384};
         const U8 share_q8 = narrow_sat_u8(div_floor(add_wrap(way, halve_floor(length)), length));
-        S16 height = lerp_q8(from_q4_mm, to_q4_mm, share_q8);
-        if (!one) {
-            const S16 step_q4_mm = sub_wrap(height, from_q4_mm);
-            height = lerp_q8(from_q4_mm, height, along);
-            for (uint8_t i = 0; i < kNodeCount; ++i) {
-                node_height(map, node) = height;
-                node = add_wrap(node, U8{1});
-                if (node == end) break;
-                height = add_wrap(height, step_q4_mm);
-            }
-        } else {
+        S16 height = lerp_at(from_q4_mm, to_q4_mm, share_q8);
+        const S16 step_q4_mm = sub_wrap(height, from_q4_mm);
+        if (!one) height = lerp_at(from_q4_mm, height, narrow_sat_u8(along_q8));
+        while (node != end) {
             node_height(map, node) = height;
-            node = end;
+            node = add_wrap(node, U8{1});
+            height = add_wrap(height, step_q4_mm);
         }
     }
-    node_height(map, node) = to_q4_mm;
-    const U16 beyond = shift_left_wrap<6>(add_wrap(node_before(to_q6_bin), U16{1}));
-    const U16 oldest_q6_bin = sub_wrap(beyond, U16{(kNodeCount - 1u) * 64u});
+    node_height(map, end) = to_q4_mm;
+    const U16 oldest_q6_bin = shift_left_wrap<6>(sub_wrap(beyond, U16{kNodeCount - 1u}));
     if (ahead_of(map.lowest_q6_bin, oldest_q6_bin) > S16{0}) map.lowest_q6_bin = oldest_q6_bin;
 }
 
@@ -105,10 +104,10 @@ constexpr void begin_map(MapGrid& map, const MapGridInput& input, U16 front) {
     const U16 rear_node = node_before(map.place_q6_bin);
     map.lowest_q6_bin = shift_left_wrap<6>(rear_node);
     node_height(map, rear_node) = S16{0};
-    fill_line(map, map.place_q6_bin, S16{0}, middle, input.middle_height_q4_mm);
-    fill_line(map, middle, input.middle_height_q4_mm, front, input.front_height_q4_mm);
-    map.front_place_q6_bin = front;
-    map.front_height_q4_mm = input.front_height_q4_mm;
+    map.front_place_q6_bin = map.place_q6_bin;
+    map.front_height_q4_mm = S16{0};
+    fill_to(map, middle, input.middle_height_q4_mm);
+    fill_to(map, front, input.front_height_q4_mm);
     map.front_height_before_q4_mm = input.front_height_q4_mm;
     map.passed_bin = node_of(split_place(front));
     map.measured_from_q6_bin = front;
@@ -142,9 +141,9 @@ constexpr void learn_roughness(MapGrid& map, S16 front_height_q4_mm) {
     const S16 step = sub_wrap(front_height_q4_mm, map.front_height_q4_mm);
     const S16 step_before = sub_wrap(map.front_height_q4_mm, map.front_height_before_q4_mm);
     const U16 bend_q4_mm = min(abs_u16(sub_wrap(step, step_before)), U16{kBendMaxQ4Mm});
-    map.rough_q8_mm = narrow_wrap_u16(approach(narrow_wrap_s16(map.rough_q8_mm),
-                                               narrow_wrap_s16(shift_left_wrap<4>(bend_q4_mm)),
-                                               kLearnGainQ8[map.rough_count]));
+    map.rough_q8_mm = narrow_wrap_u16(lerp_at(narrow_wrap_s16(map.rough_q8_mm),
+                                              narrow_wrap_s16(shift_left_wrap<4>(bend_q4_mm)),
+                                              U8{kLearnGainQ8[map.rough_count]}));
     if (map.rough_count < kLearnSteps) ++map.rough_count;
 }
 
@@ -163,11 +162,9 @@ constexpr S16 extend_map(MapGrid& map, const MapGridInput& input, U16 front) {
     node_height(map, next) = sub_wrap(node_height(map, next), quarter);
     if (ahead_of(map.front_place_q6_bin, front) >= S16{0}) {
         const S16 front_height = add_wrap(rear, input.front_height_q4_mm);
-        fill_line(map, map.front_place_q6_bin, map.front_height_q4_mm, front, front_height);
         learn_roughness(map, front_height);
         map.front_height_before_q4_mm = map.front_height_q4_mm;
-        map.front_place_q6_bin = front;
-        map.front_height_q4_mm = front_height;
+        fill_to(map, front, front_height);
     }
     return rear;
 }

@@ -44,11 +44,13 @@ TEST(SurfaceAt, HillsBeyondTheRangeOfHeightsAreOnlyDifferences) {
 }
 
 // Every start and length of the front wheel's step that the estimator can take.
-TEST(FillLine, LeavesNodesOnTheStraightLineWithin0p2PercentOfTheRisePerNodeAndOneLsb) {
+TEST(FillTo, LeavesNodesOnTheStraightLineWithin0p2PercentOfTheRisePerNodeAndOneLsb) {
     for (int from = 1000; from < 1064; from += 7) {
         for (int length = 0; length <= kGapMaxQ6Bin; length += 13) {
             MapGrid map;
-            fill_line(map, static_cast<U16>(from), -500, static_cast<U16>(from + length), 700);
+            map.front_place_q6_bin = static_cast<U16>(from);
+            map.front_height_q4_mm = -500;
+            fill_to(map, static_cast<U16>(from + length), 700);
             int nodes = 0;
             for (int node = from / 64 + 1; node * 64 <= from + length; ++node) {
                 ++nodes;
@@ -65,12 +67,13 @@ TEST(FillLine, LeavesNodesOnTheStraightLineWithin0p2PercentOfTheRisePerNodeAndOn
     }
 }
 
-TEST(FillLine, OldestNodeMovesOnWithTheRing) {
+TEST(FillTo, OldestNodeMovesOnWithTheRing) {
     MapGrid map;
     map.lowest_q6_bin = 0;
-    fill_line(map, 20 * 64, 0, 30 * 64, 0);  // writes up to node 31: all 32 fit
+    map.front_place_q6_bin = 20 * 64;
+    fill_to(map, 30 * 64, 0);  // writes up to node 31: all 32 fit
     EXPECT_EQ(map.lowest_q6_bin, 0);
-    fill_line(map, 30 * 64, 0, 33 * 64, 0);  // up to node 34: nodes 0 to 2 are overwritten
+    fill_to(map, 33 * 64, 0);  // up to node 34: nodes 0 to 2 are overwritten
     EXPECT_EQ(map.lowest_q6_bin, 3 * 64);
 }
 
@@ -84,7 +87,7 @@ TEST(BeginMap, OnASlopeIsThatSlope) {
         input.front_height_q4_mm = 100 * 16;
         begin_map(map, input, static_cast<uint16_t>(start + 1280));
         for (int ahead = 64; ahead <= 1216; ahead += 11) {
-            // 0.2 % of the 50 mm between two contacts a node, as for FillLine: 2 % in all.
+            // 0.2 % of the 50 mm between two contacts a node, as for FillTo: 2 % in all.
             const double slope_q4_mm = ahead / 64.0 * 5 * 16;
             ASSERT_NEAR(surface_at(map, static_cast<U16>(start + ahead)), slope_q4_mm, 20) << ahead;
         }
@@ -114,12 +117,13 @@ TEST(StartOnKnownGround, HoldsTheGivenHeightsAndCountsAsMeasured) {
     EXPECT_TRUE(map.has_map && map.measured);
 }
 
-TEST(Approach, IsAStepTowardsTheTargetRoundedHalfUp) {
+TEST(LerpAt, IsAStepTowardsTheTargetRoundedHalfUp) {
     for (int value = -30000; value <= 30000; value += 1013) {
         for (int target = -30000; target <= 30000; target += 997) {
             if (std::abs(target - value) > 32767) continue;
             const double step = std::floor((target - value) * 9 / 256.0 + 0.5);
-            ASSERT_EQ(approach(static_cast<S16>(value), static_cast<S16>(target), 9), value + step);
+            ASSERT_EQ(lerp_at(static_cast<S16>(value), static_cast<S16>(target), U8{9}),
+                      value + step);
         }
     }
 }

@@ -53,7 +53,7 @@ TEST(SlipTuning, IsTheDoubleModelsWithinRounding) {
     EXPECT_NEAR(kNoiseFloorQ4Mm / 160.0, std::sqrt(0.25 / (2 - 0.25)) * 0.82 * tuning.look_sigma_cm,
                 0.5 / 160);
     EXPECT_NEAR(kPercentPerMeanQ16 / 65536.0, 100.0 / kMeanNoSlipQ12Bin, 0.5 / 65536);
-    EXPECT_NEAR(kUninformedVarianceQ12, 0.85 * kPriorVarianceQ12, 0.5);
+    EXPECT_EQ(kBendInformedQ3, std::ceil(16 / 0.85));
     for (int n = 0; n <= kLearnSteps; ++n) {
         EXPECT_NEAR(kLearnGainQ8[n], std::max(8.0, 256.0 / (n + 8)), 0.5) << n;
     }
