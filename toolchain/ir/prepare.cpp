@@ -45,6 +45,7 @@ void prepare(llvm::Module& module) {
         run("copy_by_value_arguments", copy_by_value_arguments);
         run("step_pointers", step_pointers);
         run("count_down", count_down);
+        run("find_pages", find_pages);
         run("narrow_values", narrow_values);
         run("expand_intrinsics", expand_intrinsics);
         run("expand_wide_products", expand_wide_products);
@@ -53,7 +54,6 @@ void prepare(llvm::Module& module) {
         run("split_conditions", split_conditions);
         run("expand_selects", expand_selects);
         run("place_near_use", place_near_use);
-        run("find_pages", find_pages);
     }
 }
 
