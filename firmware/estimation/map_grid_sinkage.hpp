@@ -11,20 +11,10 @@
 
 namespace rover::slip {
 
-/// floor(64 a / b) for a < b; 63 for a = b.
+/// floor(64 a / b) for a < b; 63 for a = b; 0 for 0 / 0.
 [[gnu::noinline]] constexpr U8 ratio_q6(U8 a, U8 b) {
-    U8 ratio{0};
-    for (uint8_t i = 0; i < 6; ++i) {
-        ratio = shift_left_wrap<1>(ratio);
-        const U8 missing = sub_wrap(b, a);
-        if (a >= missing) {
-            a = sub_wrap(a, missing);
-            ratio = add_wrap(ratio, U8{1});
-        } else {
-            a = shift_left_wrap<1>(a);
-        }
-    }
-    return ratio;
+    const U16 ratio = div_floor(shift_left_wrap<6>(widen_u16(a)), widen_u16(b));
+    return ratio < U16{64} ? narrow_wrap_u8(ratio) : U8{63};
 }
 
 /// Puts the sample into its bin; two in one bin are averaged. Bins that the front wheel has passed

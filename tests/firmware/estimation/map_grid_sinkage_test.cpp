@@ -18,7 +18,8 @@ MapGrid at_front(int bin) {
 }
 
 TEST(RatioQ6, Is64TimesTheRatioRoundedDown) {
-    for (int b = 0; b < 256; ++b) {
+    EXPECT_EQ(ratio_q6(U8{0}, U8{0}), 0);
+    for (int b = 1; b < 256; ++b) {
         for (int a = 0; a <= b; ++a) {
             const int wanted = a == b ? 63 : 64 * a / b;
             ASSERT_EQ(ratio_q6(static_cast<U8>(a), static_cast<U8>(b)), wanted) << a << " " << b;

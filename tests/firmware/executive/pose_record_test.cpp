@@ -105,7 +105,7 @@ TEST(PoseRecord, TheMapStartsAnew) {
     const RoverBench after = restarted(before);
     EXPECT_FALSE(after.controller.map.has_map);
     EXPECT_FALSE(after.controller.map.measured);
-    EXPECT_EQ(after.controller.map.sample_count, 0);
+    EXPECT_FALSE(after.controller.map.has_behind);
     EXPECT_FALSE(after.controller.started);
 }
 
