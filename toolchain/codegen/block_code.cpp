@@ -316,36 +316,7 @@ private:
                                             edge_code(decision.coder, 1)};
         for (const std::size_t inside : {std::size_t{0}, std::size_t{1}}) {
             part(candidate, decision, targets, edges, inside);
-            meet(candidate, decision, targets, edges, inside);
         }
-    }
-
-    // Both edges lead to the same block: the one that falls through stands in front of the other,
-    // which goes on into the block. An empty one in front is nothing but the jump.
-    void meet(const Candidate& candidate, const Decision& decision, const Targets& targets,
-              const std::array<EdgeCode, 2>& edges, std::size_t first) {
-        const std::size_t second = 1 - first;
-        const BlockId target = block_.terminator.edges[0].target;
-        if (block_.terminator.edges[1].target != target) return;
-        if (edges[first].empty && !edges[second].empty) return;  // the other way round is shorter
-        const std::array<uint32_t, 2> labels{targets.label_true, targets.label_false};
-        const double leaving = block_facts_.edge_probability[second];
-        std::vector<CodeItem> items = decision.coder.items;
-        double cost = decision.coder.cost;
-        const Condition condition = second == 0 ? decision.condition : inverse(decision.condition);
-        items.push_back(jump_item(jump_if(condition), labels[second]));
-        cost += 7 + 3 * leaving + 3 * setting_.byte_cost;
-        items.push_back(label_item(labels[first]));
-        items.insert(items.end(), edges[first].items.begin(), edges[first].items.end());
-        cost += edges[first].cost * (1 - leaving) + edges[second].cost * leaving;
-        if (!edges[second].empty) {
-            items.push_back(jump_item(op::kJmp, label_of(target)));
-            cost += (1 - leaving) * 10 + 3 * setting_.byte_cost;
-        }
-        items.push_back(label_item(labels[second]));
-        items.insert(items.end(), edges[second].items.begin(), edges[second].items.end());
-        append_jump(items, cost, target, edges[second].empty ? 1 : leaving);
-        offer(candidate, std::move(items), {}, cost);
     }
 
     void part(const Candidate& candidate, const Decision& decision, const Targets& targets,

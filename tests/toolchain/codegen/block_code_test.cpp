@@ -107,4 +107,30 @@ TEST_F(BlockCodeBranch, MovesOfAnEdgeAreOutOfLineOrBehindTheBranch) {
     EXPECT_NE((text_of(code.items) + text_of(code.cold)).find("MOV E,A"), std::string::npos);
 }
 
+// x < y ? x : 7, both to block 1 that follows: one edge is empty, so the other is jumped over.
+TEST_F(BlockCodeTest, BothWaysToOneBlockMeetThere) {
+    const Bytes x = in({a});
+    const Bytes y = in({c});
+    function.blocks.resize(2);
+    const Bytes parameter = builder.parameter(1);
+    function.blocks[1].parameters = parameter;
+    function.blocks[1].parameter_sizes = {1};
+    Terminator end;
+    end.kind = Terminator::Kind::branch;
+    end.predicate = Predicate::below;
+    end.left = x;
+    end.right = y;
+    end.edges = {{1, x, 0.5}, {1, builder.constant(7, 1), 0.5}};
+    builder.terminate(end);
+    builder.set_block(1);
+    function.result_registers = {a};
+    give_back(parameter);
+    contracts.resize(2);
+    contracts[1].registers[static_cast<unsigned>(a)] = parameter[0];
+    contracts[1].not_in_slot = parameter;
+    const BlockCode code = make(1);
+    EXPECT_EQ(text_of(code.items), "CMP C; JC a16; L:; MVI A,d8");
+    EXPECT_EQ(text_of(code.cold), "L:; JMP a16");  // threaded away
+}
+
 }  // namespace

@@ -75,4 +75,28 @@ TEST_F(Homes, TheResultDependsOnNothingElse) {
     }
 }
 
+// if (x == 0) *place = 1; return x
+TEST_F(Homes, ADetourStandsBetweenWhatItLeavesAndJoins) {
+    function.blocks.resize(3);
+    const Bytes x = in({a});
+    Terminator end;
+    end.kind = Terminator::Kind::branch;
+    end.predicate = Predicate::equal;
+    end.left = x;
+    end.right = builder.constant(0, 1);
+    end.edges = {{1, {}}, {2, {}}};
+    builder.terminate(end);
+    function.blocks[1].frequency = 0.1;
+    builder.set_block(1);
+    builder.store(builder.constant(0x9000, 2), builder.constant(1, 1), false);
+    Terminator back;
+    back.kind = Terminator::Kind::jump;
+    back.edges = {{2, {}}};
+    builder.terminate(back);
+    builder.set_block(2);
+    function.result_registers = {a};
+    give_back(x);
+    EXPECT_EQ(make(false).order, (std::vector<BlockId>{0, 1, 2}));
+}
+
 }  // namespace
