@@ -68,8 +68,7 @@ constexpr uint16_t ahead_of_side(const Odometer& odometer, const hal::RawInputs&
 }
 
 /// Gives a present wheel a lead; what it is ahead beyond that is drift.
-[[gnu::noinline]] constexpr void set_lead(Odometer& odometer, uint8_t wheel, int16_t ahead,
-                                          int16_t lead) {
+constexpr void set_lead(Odometer& odometer, uint8_t wheel, int16_t ahead, int16_t lead) {
     odometer.lead_count[wheel] = narrow_wrap_u8(lead);
     const int16_t drift = sub_wrap(ahead, lead);
     if (drift == 0) return;
@@ -121,13 +120,11 @@ constexpr uint16_t ahead_of_side(const Odometer& odometer, const hal::RawInputs&
     for (uint8_t wheel = first; wheel < hal::kWheelCount; wheel += kSideStep) {
         if (bit_and(inputs.tach_present, bit) != 0) {
             const int16_t rest = sub_wrap(ahead[wheel], middle);
-            if (count == 2) {
-                set_lead(odometer, wheel, rest, odd_pulse);
-                odd_pulse = 0;
-            } else {
-                set_lead(odometer, wheel, rest,
-                         clamp(rest, static_cast<int16_t>(-kTachLeadMaxCount), kTachLeadMaxCount));
-            }
+            const int16_t lead = count == 2 ? odd_pulse
+                                            : clamp(rest, static_cast<int16_t>(-kTachLeadMaxCount),
+                                                    kTachLeadMaxCount);
+            odd_pulse = 0;
+            set_lead(odometer, wheel, rest, lead);
         }
         bit = shift_left_wrap<kSideStep>(bit);
     }
