@@ -38,6 +38,11 @@ struct OdometerStep {
 };
 static_assert(2l * 8 * kTachStepMaxCount <= 30400, "the travel of a step, a pulse below 1 mm");
 
+/// Drift beyond this, which is a fault at any scale from 0.001 mm on, is not added up: it would
+/// wrap.
+inline constexpr uint16_t kTachDriftMaxCount = 16000;
+static_assert(kTachDriftMaxCount + 2l * kTachStepMaxCount + 2l * kTachLeadMaxCount < 32768);
+
 /// Middle one of three.
 template <Word T>
 constexpr T median3(T a, T b, T c) {
@@ -68,13 +73,13 @@ constexpr uint16_t ahead_of_side(const Odometer& odometer, const hal::RawInputs&
 }
 
 /// Gives a present wheel a lead; what it is ahead beyond that is drift.
-[[gnu::noinline]] constexpr void set_lead(Odometer& odometer, uint8_t wheel, int16_t ahead,
-                                          int16_t lead) {
+constexpr void set_lead(Odometer& odometer, uint8_t wheel, int16_t ahead, int16_t lead) {
     odometer.lead_count[wheel] = narrow_wrap_u8(lead);
     const int16_t drift = sub_wrap(ahead, lead);
     if (drift == 0) return;
     odometer.offset_count[wheel] = sub_wrap(odometer.offset_count[wheel], narrow_wrap_u16(drift));
-    odometer.drift_count[wheel] = add_sat(odometer.drift_count[wheel], drift);
+    const int16_t before = odometer.drift_count[wheel];
+    if (abs_u16(before) < kTachDriftMaxCount) odometer.drift_count[wheel] = add_wrap(before, drift);
 }
 
 /// A side in general: any wheels present, any numbers of pulses. Three: their middle one. Two:
@@ -121,13 +126,11 @@ constexpr uint16_t ahead_of_side(const Odometer& odometer, const hal::RawInputs&
     for (uint8_t wheel = first; wheel < hal::kWheelCount; wheel += kSideStep) {
         if (bit_and(inputs.tach_present, bit) != 0) {
             const int16_t rest = sub_wrap(ahead[wheel], middle);
-            if (count == 2) {
-                set_lead(odometer, wheel, rest, odd_pulse);
-                odd_pulse = 0;
-            } else {
-                set_lead(odometer, wheel, rest,
-                         clamp(rest, static_cast<int16_t>(-kTachLeadMaxCount), kTachLeadMaxCount));
-            }
+            const int16_t lead = count == 2 ? odd_pulse
+                                            : clamp(rest, static_cast<int16_t>(-kTachLeadMaxCount),
+                                                    kTachLeadMaxCount);
+            odd_pulse = 0;
+            set_lead(odometer, wheel, rest, lead);
         }
         bit = shift_left_wrap<kSideStep>(bit);
     }
@@ -253,13 +256,13 @@ constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& i
     bool disagree = false;
     for (uint8_t wheel = 0; wheel < hal::kWheelCount; ++wheel) {
         const int16_t lead = widen_s16(narrow_wrap_s8(odometer.lead_count[wheel]));
-        const uint16_t off = abs_u16(add_sat(odometer.drift_count[wheel], lead));
+        const uint16_t off = abs_u16(add_wrap(odometer.drift_count[wheel], lead));
         odometer.drift_count[wheel] = neg_wrap(lead);
-        const bool here = bit_and(present, uint8_t{1}) != 0;
+        if (off >= kTachDisagreeMm && bit_and(present, uint8_t{1}) != 0) {
+            const uint32_t off_q16_mm = mul_wide(off, calibration.tach_q16_mm_per_count);
+            if (narrow_wrap_u16(shift_floor<16>(off_q16_mm)) >= kTachDisagreeMm) disagree = true;
+        }
         present = shift_floor<1>(present);
-        if (!here || off < kTachDisagreeMm) continue;
-        const uint32_t off_q16_mm = mul_wide(off, calibration.tach_q16_mm_per_count);
-        if (narrow_wrap_u16(shift_floor<16>(off_q16_mm)) >= kTachDisagreeMm) disagree = true;
     }
     return disagree;
 }

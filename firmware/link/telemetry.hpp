@@ -93,7 +93,9 @@ struct ByteReader {
 };
 
 constexpr uint16_t frame_crc(const uint8_t* frame) {
-    return crc16_block(kCrc16Start, frame + 2, kTelemetryHeadSize - 2 + kTelemetryPayloadSize);
+    constexpr uint16_t kOfHead =
+        crc16_add(crc16_add(kCrc16Start, kTelemetryVersion), kTelemetryPayloadSize);
+    return crc16_block(kOfHead, frame + kTelemetryHeadSize, kTelemetryPayloadSize);
 }
 
 }  // namespace link

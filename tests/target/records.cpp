@@ -144,6 +144,16 @@ Record record_of(const rover::Controller& controller) {
     record.field("angles.valid", controller.angles.valid);
     record.field("angles.faults", controller.angles.faults);
     record.field("angles.stuck", controller.angles.stuck);
+    record.field("pose.side", controller.pose.side);
+    record.field("pose.rocker_brad", controller.pose.rocker_brad);
+    record.field("pose.bogie_brad", controller.pose.bogie_brad);
+    record.field("pose.middle_height_q4_mm", controller.pose.middle_height_q4_mm);
+    record.field("pose.front_height_q4_mm", controller.pose.front_height_q4_mm);
+    record.field("pose.middle_distance_q6_bin", controller.pose.middle_distance_q6_bin);
+    record.field("pose.front_distance_q6_bin", controller.pose.front_distance_q6_bin);
+    record.field("travel.travel_q4_mm", controller.travel.travel_q4_mm);
+    record.field("travel.moving", controller.travel.moving);
+    record.field("travel.valid", controller.travel.valid);
     add(record, controller.odometer);
     record.field("scan.last_scan_count", controller.scan.last_scan_count);
     record.field("scan.age_steps", controller.scan.age_steps);

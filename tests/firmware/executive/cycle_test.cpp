@@ -47,7 +47,8 @@ TEST(Cycle, TheOdometerOfTheEstimatorLosesNothingEitherWay) {
             travel_q4_mm += sign * way;
             controller.since_cycle_q4_mm = static_cast<std::int16_t>(sign * way);
             sum_q6 += rover::executive::cycle_odometer_q6_bin(controller);
-            ASSERT_EQ(sum_q6, static_cast<std::int64_t>(std::floor(travel_q4_mm * 4 / 25.0)));
+            ASSERT_EQ(sum_q6, static_cast<std::int64_t>(
+                                  std::floor(static_cast<double>(travel_q4_mm) * 4 / 25)));
         }
     }
     controller.odometer_rest_q6 = 0;
