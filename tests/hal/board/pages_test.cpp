@@ -90,7 +90,7 @@ TEST(BringUpPage, ItsFramesHaveTheRightCheck) {
         EXPECT_EQ(bytes[0], 0xC5);
         EXPECT_EQ(bytes[1], 0x3A);
         EXPECT_EQ(bytes[2], i + 1);  // identity, status
-        const uint16_t crc = rover::crc16_add(rover::kCrc16Start, &bytes[2], 2);
+        const uint16_t crc = rover::crc16_block(rover::kCrc16Start, &bytes[2], 2);
         EXPECT_EQ(bytes[4] | bytes[5] << 8, crc);
     }
 }
