@@ -38,7 +38,7 @@ inline constexpr uint8_t kRoughOf16MmQ1[17] = {87, 87, 87, 87, 87, 87, 76, 66, 5
                                                52, 47, 43, 40, 37, 34, 32, 31};
 inline constexpr uint8_t kCostCapQ3 = 128;           ///< 16
 inline constexpr uint16_t kReacquireCostQ10 = 4096;  ///< 4: above it matching has failed
-inline constexpr uint16_t kTrackingCostQ10 = 1365;   ///< 4/3: below it lock is back
+inline constexpr uint16_t kTrackingCostQ10 = 1536;   ///< 3/2: below it lock is back
 inline constexpr uint16_t kAfterLossCostQ10 = 2048;  ///< 2: running cost restarts here
 inline constexpr uint16_t kInitialCostQ10 = 1024;    ///< 1
 inline constexpr uint8_t kCredibleFitQ3 = 200;       ///< 25: five sigma at the edge is no match

@@ -33,14 +33,15 @@ struct MapGridInput {
 
 /// Ground seen ahead, one sample a bin: that of bin n lives at n modulo 32.
 struct GroundAhead {
-    alignas(64) S16 height_q4_mm[slip::kNodeCount] = {};
+    S16 height_q4_mm[slip::kNodeCount] = {};
     U8 fraction_q8[slip::kNodeCount] = {};  ///< of the bin, lowest bit set; 0: no sample
 };
 
 struct MapGrid {
-    // Rings lie within a page: the 8085 then adds a subscript to the low byte of the address alone.
+    // The rings come first, 160 bytes. Where the map begins a page of memory, as in the image, the
+    // 8085 adds a subscript to the low byte of the address alone.
     // Load-bearing surface L = y - s at whole bins; node n lives at n modulo 32.
-    alignas(64) S16 surface_q4_mm[slip::kNodeCount] = {};
+    S16 surface_q4_mm[slip::kNodeCount] = {};
     GroundAhead ahead{};
     bool has_map = false;
     bool measured = false;        ///< the rear wheel stands on ground that the front wheel measured

@@ -25,6 +25,7 @@ inline constexpr uint16_t kNoSlipShareQ15 = 32768;
 
 /// Everything the controller remembers.
 struct Controller {
+    MapGrid map;  ///< first: its rings then lie within a page of memory, see there
     hal::Calibration calibration;
     uint16_t calibration_fault = 0;  ///< kFaultCalibration when nominal values are in use
     Estimates estimates;
@@ -34,7 +35,6 @@ struct Controller {
     OdometerStep travel;
     Odometer odometer;
     ScanWatch scan;
-    MapGrid map;
     bool started = false;
     uint16_t sensor_faults = 0;                  ///< tachometer fault of the last cycle
     int16_t past_due_q4_mm = -kCycleTravelQ4Mm;  ///< travel past the next forward cycle's due point

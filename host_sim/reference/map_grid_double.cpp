@@ -132,7 +132,7 @@ void MapGridDouble::judge(double cost) {
         prior_mean_cm_ = std::max(prior_mean_cm_, tuning_.reacquire_mean_cm);
         learned_ = 0;
         match_cost_ = tuning_.reacquire_cost / 2;
-    } else if (mode_ != MapGridMode::reacquiring || match_cost_ < tuning_.reacquire_cost / 3) {
+    } else if (mode_ != MapGridMode::reacquiring || match_cost_ < tuning_.tracking_cost) {
         mode_ = MapGridMode::tracking;
     }
 }

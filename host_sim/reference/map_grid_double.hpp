@@ -24,6 +24,7 @@ struct MapGridTuning {
     double cost_cap = 16;            ///< cost of one cycle in the running mean
     double credible_fit = 25;        ///< a squared residual above this is no match: dead reckon
     double reacquire_cost = 4;       ///< running cost above this: matching has failed
+    double tracking_cost = 1.5;      ///< below this: lock is back
     double reacquire_mean_cm = 5;    ///< prior mean is raised to this when it has
     double slip_alarm_cost = 3.75;   ///< slip alarm above this running match cost ...
     double slip_alarm_percent = 30;  ///< ... or above this slip of the learned mean

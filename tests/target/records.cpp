@@ -56,6 +56,8 @@ void add(Record& record, const rover::Odometer& value) {
 
 void add(Record& record, const rover::MapGrid& value) {
     record.field("map.surface_q4_mm", value.surface_q4_mm);
+    record.field("map.ahead.height_q4_mm", value.ahead.height_q4_mm);
+    record.field("map.ahead.fraction_q8", value.ahead.fraction_q8);
     record.field("map.has_map", value.has_map);
     record.field("map.measured", value.measured);
     record.field("map.lowest_q6_bin", value.lowest_q6_bin);
@@ -75,8 +77,6 @@ void add(Record& record, const rover::MapGrid& value) {
     record.field("map.spread_rest_q12", value.spread_rest_q12);
     record.field("map.variance_q12", value.variance_q12);
     record.field("map.drift_q12_bin", value.drift_q12_bin);
-    record.field("map.ahead.height_q4_mm", value.ahead.height_q4_mm);
-    record.field("map.ahead.fraction_q8", value.ahead.fraction_q8);
     record.field("map.passed_bin", value.passed_bin);
     record.field("map.has_behind", value.has_behind);
     record.field("map.behind_place_q8_bin", value.behind_place_q8_bin);
@@ -112,10 +112,10 @@ Record record_of(const hal::RawInputs& inputs) {
     record.field("adc_q4_count", inputs.adc_q4_count);
     record.field("tach_count", inputs.tach_count);
     record.field("tach_present", inputs.tach_present);
+    record.field("detector_bits", inputs.detector_bits);
     record.field("range_scan_count", inputs.range_scan_count);
     record.field("range_present", inputs.range_present);
     record.field("range_q1_mm", inputs.range_q1_mm);
-    record.field("detector_bits", inputs.detector_bits);
     record.field("command_size", inputs.command_size);
     record.field("command", inputs.command);
     return record;
@@ -134,6 +134,7 @@ Record record_of(const hal::Commands& commands) {
 
 Record record_of(const rover::Controller& controller) {
     Record record;
+    add(record, controller.map);
     add(record, controller.calibration);
     record.field("calibration_fault", controller.calibration_fault);
     add(record, controller.estimates);
@@ -157,7 +158,6 @@ Record record_of(const rover::Controller& controller) {
     add(record, controller.odometer);
     record.field("scan.last_scan_count", controller.scan.last_scan_count);
     record.field("scan.age_steps", controller.scan.age_steps);
-    add(record, controller.map);
     record.field("started", controller.started);
     record.field("sensor_faults", controller.sensor_faults);
     record.field("past_due_q4_mm", controller.past_due_q4_mm);

@@ -46,7 +46,7 @@ struct Request {
     bool undocumented = false;  ///< the ten instructions that Intel left out may be used
     bool allow_recursion = false;
     bool allow_constructors = true;  ///< of static objects, at start-up
-    bool small_runtime = false;       ///< products and quotients of words by loops
+    bool small_runtime = false;      ///< products and quotients of words by loops
     uint64_t search_budget = 0;      ///< for register homes: GenerateOptions; 0: by size
     double byte_cost = 1;            ///< T-states per execution that a byte of code is worth
     assembly::AddressRange rom = assembly::LinkOptions{}.rom;

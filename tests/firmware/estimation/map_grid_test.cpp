@@ -45,7 +45,7 @@ TEST(SlipTuning, IsTheDoubleModelsWithinRounding) {
     EXPECT_EQ(kCredibleFitQ3 / 8.0, tuning.credible_fit);
     EXPECT_EQ(kReacquireCostQ10 / 1024.0, tuning.reacquire_cost);
     EXPECT_EQ(kAfterLossCostQ10 / 1024.0, tuning.reacquire_cost / 2);
-    EXPECT_NEAR(kTrackingCostQ10 / 1024.0, tuning.reacquire_cost / 3, 0.5 / 1024);
+    EXPECT_EQ(kTrackingCostQ10 / 1024.0, tuning.tracking_cost);
     EXPECT_NEAR(kMeanReacquireQ12Bin / 4096.0 * 2.5, tuning.reacquire_mean_cm, 1e-9);
     EXPECT_EQ(kSlipAlarmCostQ10 / 1024.0, tuning.slip_alarm_cost);
     EXPECT_EQ(kSlipAlarmPercent, tuning.slip_alarm_percent);
