@@ -74,9 +74,9 @@ double reacquired_after_m(const host_sim::Log& log, double from_s) {
     return 1e9;
 }
 
-/// A wheelbase of ground that the front wheel has measured, then the 18 cycles that lock takes in
+/// A wheelbase of ground that the front wheel has measured, then the 17 cycles that lock takes in
 /// the median (docs/design/slip-and-sinkage.md, "Defined behaviour").
-constexpr double kReacquireM = 0.5 * 6 / 5 + 18 * 0.06;
+constexpr double kReacquireM = 0.5 * 6 / 5 + 17 * 0.06;
 
 TEST(Motion, DrivingBackwardsIsFollowedByOdometryAndKnownGroundIsFoundAgain) {
     const host_sim::Log log = scripted({{300, kAhead}, {100, kBack}, {400, kAhead}});
