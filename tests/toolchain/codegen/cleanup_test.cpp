@@ -7,6 +7,7 @@
 #include <random>
 
 #include "host_sim/cpu/flat_machine.hpp"
+#include "tests/toolchain/codegen/code_items.hpp"
 #include "tests/toolchain/codegen/coder_fixture.hpp"
 #include "toolchain/codegen/merge_tails.hpp"
 #include "toolchain/codegen/peephole.hpp"
@@ -14,32 +15,16 @@
 namespace {
 
 using namespace toolchain::codegen;
+using codegen_test::item;
+using codegen_test::jump;
+using codegen_test::label;
+using codegen_test::number;
+using codegen_test::slot;
 using codegen_test::text_of;
 using enum Register;
 using Items = std::vector<CodeItem>;
 
 constexpr uint32_t kSlots = 8;
-
-CodeItem item(uint8_t opcode, CodeOperand operand = {}) {
-    CodeItem result;
-    result.opcode = opcode;
-    result.operand = operand;
-    return result;
-}
-CodeItem number(uint8_t opcode, int32_t value) {
-    return item(opcode, {CodeOperand::Kind::number, CodeOperand::Part::word, 0, value});
-}
-CodeItem slot(uint8_t opcode, int32_t offset) {
-    return item(opcode, {CodeOperand::Kind::frame, CodeOperand::Part::word, 0, offset});
-}
-CodeItem jump(uint8_t opcode, uint32_t label) {
-    return item(opcode, {CodeOperand::Kind::label, CodeOperand::Part::word, label, 0});
-}
-CodeItem label(uint32_t id) {
-    CodeItem result = jump(0, id);
-    result.kind = CodeItem::Kind::label;
-    return result;
-}
 
 std::string cleaned(Items items, RegisterSet at_return) {
     clean_up(items, kSlots, at_return);

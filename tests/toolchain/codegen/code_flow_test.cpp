@@ -3,32 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/toolchain/codegen/code_items.hpp"
 #include "toolchain/codegen/coder.hpp"
 #include "toolchain/codegen/known_values.hpp"
 
 namespace {
 
 using namespace toolchain::codegen;
+using codegen_test::item;
+using codegen_test::jump;
+using codegen_test::label;
+using codegen_test::slot;
 using enum Register;
 using Items = std::vector<CodeItem>;
-
-CodeItem item(uint8_t opcode, CodeOperand operand = {}) {
-    CodeItem result;
-    result.opcode = opcode;
-    result.operand = operand;
-    return result;
-}
-CodeItem slot(uint8_t opcode, int32_t offset) {
-    return item(opcode, {CodeOperand::Kind::frame, CodeOperand::Part::word, 0, offset});
-}
-CodeItem jump(uint8_t opcode, uint32_t label) {
-    return item(opcode, {CodeOperand::Kind::label, CodeOperand::Part::word, label, 0});
-}
-CodeItem label(uint32_t id) {
-    CodeItem result = jump(0, id);
-    result.kind = CodeItem::Kind::label;
-    return result;
-}
 
 TEST(CodeFlow, TableWordsAreExitsOfTheJumpToTheirRoutine) {
     CodeItem word = jump(0, 7);

@@ -3,33 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/toolchain/codegen/code_items.hpp"
 #include "tests/toolchain/codegen/coder_fixture.hpp"
 
 namespace {
 
 using namespace toolchain::codegen;
+using codegen_test::item;
+using codegen_test::jump;
+using codegen_test::label;
+using codegen_test::number;
 using codegen_test::text_of;
-
-CodeItem item(uint8_t opcode, CodeOperand operand = {}) {
-    CodeItem result;
-    result.opcode = opcode;
-    result.operand = operand;
-    return result;
-}
-
-CodeItem jump(uint8_t opcode, uint32_t label) {
-    return item(opcode, {CodeOperand::Kind::label, CodeOperand::Part::word, label, 0});
-}
-
-CodeItem label(uint32_t id) {
-    CodeItem result = jump(0, id);
-    result.kind = CodeItem::Kind::label;
-    return result;
-}
-
-CodeItem number(uint8_t opcode, int32_t value) {
-    return item(opcode, {CodeOperand::Kind::number, CodeOperand::Part::word, 0, value});
-}
 
 constexpr uint8_t kMviA = 0x3E;
 constexpr uint8_t kInrB = 0x04;
