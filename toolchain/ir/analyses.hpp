@@ -1,5 +1,5 @@
-// analyses.hpp - LLVM's analyses of one function, computed when asked for; internal to
-// toolchain/ir. Depends on   libLLVM 19.
+// analyses.hpp - LLVM's analyses of one function or of a module, computed when asked for; internal
+// to toolchain/ir. Depends on   libLLVM 19.
 #pragma once
 
 #include <llvm/Analysis/LoopInfo.h>
@@ -34,6 +34,26 @@ public:
 private:
     llvm::Function& function_;
     llvm::FunctionAnalysisManager manager_;
+};
+
+/// Of a whole module, for LLVM's own pass managers.
+class ModuleAnalyses {
+public:
+    explicit ModuleAnalyses(llvm::PassBuilder& builder) {
+        builder.registerModuleAnalyses(modules_);
+        builder.registerCGSCCAnalyses(components_);
+        builder.registerFunctionAnalyses(functions_);
+        builder.registerLoopAnalyses(loops_);
+        builder.crossRegisterProxies(loops_, functions_, components_, modules_);
+    }
+
+    void run(llvm::ModulePassManager passes, llvm::Module& module) { passes.run(module, modules_); }
+
+private:
+    llvm::LoopAnalysisManager loops_;
+    llvm::FunctionAnalysisManager functions_;
+    llvm::CGSCCAnalysisManager components_;
+    llvm::ModuleAnalysisManager modules_;
 };
 
 }  // namespace toolchain::ir

@@ -24,6 +24,7 @@
 #include <set>
 #include <vector>
 
+#include "toolchain/ir/analyses.hpp"
 #include "toolchain/ir/prepare.hpp"
 
 namespace toolchain::ir {
@@ -226,15 +227,6 @@ void forget_effects(llvm::Module& module) {
 
 void tidy_up(llvm::Module& module) {
     llvm::PassBuilder builder;
-    llvm::LoopAnalysisManager loops;
-    llvm::FunctionAnalysisManager functions;
-    llvm::CGSCCAnalysisManager components;
-    llvm::ModuleAnalysisManager modules;
-    builder.registerModuleAnalyses(modules);
-    builder.registerCGSCCAnalyses(components);
-    builder.registerFunctionAnalyses(functions);
-    builder.registerLoopAnalyses(loops);
-    builder.crossRegisterProxies(loops, functions, components, modules);
     llvm::ModulePassManager passes;
     passes.addPass(llvm::IPSCCPPass());
     passes.addPass(llvm::DeadArgumentEliminationPass());
@@ -245,7 +237,7 @@ void tidy_up(llvm::Module& module) {
     each.addPass(llvm::InstCombinePass());
     each.addPass(llvm::EarlyCSEPass(true));
     passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(each)));
-    passes.run(module, modules);
+    ModuleAnalyses(builder).run(std::move(passes), module);
 }
 
 }  // namespace

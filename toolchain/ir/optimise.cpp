@@ -2,6 +2,7 @@
 // Depends on   libLLVM 19 (Passes).
 #include <llvm/Passes/PassBuilder.h>
 
+#include "toolchain/ir/analyses.hpp"
 #include "toolchain/ir/prepare.hpp"
 
 namespace toolchain::ir {
@@ -12,24 +13,16 @@ void optimise(llvm::Module& module, Optimisation level) {
     tuning.SLPVectorization = false;
     tuning.LoopUnrolling = false;
     llvm::PassBuilder builder(nullptr, tuning);
-    llvm::LoopAnalysisManager loops;
-    llvm::FunctionAnalysisManager functions;
-    llvm::CGSCCAnalysisManager components;
-    llvm::ModuleAnalysisManager modules;
-    builder.registerModuleAnalyses(modules);
-    builder.registerCGSCCAnalyses(components);
-    builder.registerFunctionAnalyses(functions);
-    builder.registerLoopAnalyses(loops);
-    builder.crossRegisterProxies(loops, functions, components, modules);
+    ModuleAnalyses analyses(builder);
     using Level = llvm::OptimizationLevel;
     if (level == Optimisation::none) {
-        builder.buildO0DefaultPipeline(Level::O0).run(module, modules);
+        analyses.run(builder.buildO0DefaultPipeline(Level::O0), module);
         return;
     }
     const Level wanted = level == Optimisation::less   ? Level::O1
                          : level == Optimisation::more ? Level::O2
                                                        : Level::Os;
-    builder.buildPerModuleDefaultPipeline(wanted).run(module, modules);
+    analyses.run(builder.buildPerModuleDefaultPipeline(wanted), module);
 }
 
 }  // namespace toolchain::ir
