@@ -1,4 +1,5 @@
-// map_grid.hpp - slip and sinkage from articulation, the estimator that flies: one cycle.
+// map_grid.hpp - slip and sinkage from articulation, the estimator that flies: one cycle, in two
+// halves of about the same length.
 // Depends on   map_grid_match.hpp, map_grid_surface.hpp, map_grid_sinkage.hpp.
 // Source       Wilcox 1994; changes and why in docs/design/slip-and-sinkage.md.
 // Bounds       no heap, no recursion; state in MapGrid. Any sequence of inputs leaves a defined
@@ -80,9 +81,9 @@ constexpr void update_map(MapGrid& map, const MapGridInput& input) {
     look_ahead(map, input, rear_height_q4_mm, front);
 }
 
-constexpr void step_forward(MapGrid& map, const MapGridInput& input) {
-    const bool linkage = usable_linkage(input);
-    if (linkage && can_match(map, input)) {
+constexpr void step_forward(MapGrid& map, MapGridInput& input) {
+    input.linkage = usable_linkage(input);
+    if (input.linkage && can_match(map, input)) {
         if (map.mode != SlipMode::tracking) map.mode = SlipMode::reacquiring;
         const S16 advance = match_advance(map, input);
         move_by(map, advance);
@@ -92,10 +93,8 @@ constexpr void step_forward(MapGrid& map, const MapGridInput& input) {
             shift_floor<6>(add_wrap(expected_advance_q12_bin(map, input), S16{32}));
         move_by(map, max(expected, S16{0}));
         add_odometry_doubt(map, map.advance_q6_bin);
-        map.mode = linkage ? SlipMode::reacquiring : SlipMode::odometry_only;
+        map.mode = input.linkage ? SlipMode::reacquiring : SlipMode::odometry_only;
     }
-    map.sinkage_valid = false;
-    if (linkage) update_map(map, input);
 }
 
 /// Slip of the learned mean against a wheel that does not slip, percent [0, 84].
@@ -106,11 +105,11 @@ constexpr S8 slip_percent(const MapGrid& map) {
 
 }  // namespace slip
 
-/// One slip-and-sinkage cycle, due every 6.0 cm of wheel odometry.
+/// First half of a cycle: how far the vehicle got, how sure that is, and the slip alarm.
 /// @param map    changed in place
-/// @param input  any values; distances out of range are treated as no linkage
+/// @param input  any values; where its distances are out of range, `linkage` is taken back
 /// @context      control step; not re-entrant
-[[gnu::noinline]] constexpr void map_grid_step(MapGrid& map, const MapGridInput& input) {
+[[gnu::noinline]] constexpr void map_grid_match(MapGrid& map, MapGridInput& input) {
     map.lost_lock = false;
     switch (input.motion) {
         case CycleMotion::forward:
@@ -129,6 +128,22 @@ constexpr S8 slip_percent(const MapGrid& map) {
     // The running cost restarts lower when lock is lost, so the loss itself counts.
     map.slip_alarm = map.lost_lock || map.match_cost_q10 > U16{slip::kSlipAlarmCostQ10} ||
                      map.mean_q12_bin < S16{slip::kSlipAlarmMeanQ12Bin};
+}
+
+/// Second half: the ground that the wheels stand on now goes into the map, and the sinkage.
+/// @param input  as map_grid_match() left it
+[[gnu::noinline]] constexpr void map_grid_extend(MapGrid& map, const MapGridInput& input) {
+    if (input.motion != CycleMotion::forward) return;
+    map.sinkage_valid = false;
+    if (input.linkage) slip::update_map(map, input);
+}
+
+/// One slip-and-sinkage cycle, due every 6.0 cm of wheel odometry: both halves.
+/// @param map    changed in place
+/// @param input  any values; distances out of range are treated as no linkage
+constexpr void map_grid_step(MapGrid& map, MapGridInput input) {
+    map_grid_match(map, input);
+    map_grid_extend(map, input);
 }
 
 /// One sigma of the position, u16 Q4 mm, saturating: covers the error in 90 % of drives.

@@ -3,7 +3,7 @@
 // Flow         inputs -> angles, odometer -> linkage -> slip and sinkage -> estimates -> commands.
 // Parts        controller_state.hpp (state, reset), cycle.hpp (when and how a cycle runs),
 //              reporting.hpp (estimates and commands).
-// Bounds       at most one slip-and-sinkage cycle a step; no heap, no recursion, no globals.
+// Bounds       one part of a slip-and-sinkage cycle a step; no heap, no recursion, no globals.
 // Design note  docs/design/controller.md     Tests  tests/firmware/executive/controller_test.cpp
 #pragma once
 
@@ -33,7 +33,7 @@ constexpr void controller_step(Controller& controller, const hal::RawInputs& inp
     controller.since_cycle_q4_mm = add_wrap(controller.since_cycle_q4_mm, travel.travel_q4_mm);
     controller.past_due_q4_mm = add_wrap(controller.past_due_q4_mm, travel.travel_q4_mm);
     if (travel.valid) set_available(estimates, kAvailableOdometry);
-    if (abs_u16(travel.travel_q4_mm) > uint16_t{kCycleTravelQ4Mm}) {
+    if (abs_u16(travel.travel_q4_mm) > kOverspeedQ4Mm) {
         set_event(estimates, kEventOverspeed);
     }
     // Samples lie ahead of the left wheels.
@@ -41,13 +41,11 @@ constexpr void controller_step(Controller& controller, const hal::RawInputs& inp
     if (looks_ahead) set_available(estimates, kAvailableLookAhead);
     if (controller.scan.age_steps == kScanStaleSteps) set_fault(estimates, kFaultRangeStale);
     report_attitude(estimates, angles, pose);
-    CycleMotion motion = CycleMotion::moved;
-    const bool due =
-        moved_at_rest(controller, pose, travel.moving) || cycle_due(controller, motion);
-    if (due) {
-        run_cycle(controller, inputs, pose, angles[hal::AngleChannel::pitch], looks_ahead, motion);
+    if (first) {
+        take_position(controller);
+        report_cycle(controller);
     }
-    if (due || first) report_cycle(controller);
+    cycle_step(controller, inputs, looks_ahead);
     estimates.faults = bit_or(estimates.faults, controller.sensor_faults);
     if (estimates.faults != 0) set_event(estimates, kEventSensorFault);
     report_map(controller);

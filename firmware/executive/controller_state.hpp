@@ -23,6 +23,14 @@ struct ScanWatch {
 
 inline constexpr uint16_t kNoSlipShareQ15 = 32768;
 
+/// What the next step does for the slip-and-sinkage cycle that has begun: one part of it a step.
+enum class CycleStage : uint8_t {
+    none,    ///< nothing: the next cycle may begin
+    match,   ///< how far the vehicle got
+    extend,  ///< map and sinkage
+    close,   ///< sensors are compared, results reported
+};
+
 /// Everything the controller remembers.
 struct Controller {
     MapGrid map;  ///< first: its rings then lie within a page of memory, see there
@@ -38,7 +46,12 @@ struct Controller {
     bool started = false;
     uint16_t sensor_faults = 0;                  ///< tachometer fault of the last cycle
     int16_t past_due_q4_mm = -kCycleTravelQ4Mm;  ///< travel past the next forward cycle's due point
-    int16_t since_cycle_q4_mm = 0;               ///< travel since the last cycle
+    int16_t since_cycle_q4_mm = 0;               ///< travel that no match has measured yet
+    int16_t in_cycle_q4_mm = 0;                  ///< the part of it that the begun cycle measures
+    CycleStage stage = CycleStage::none;
+    bool changed_side = false;  ///< the begun cycle's linkage is not the one that made the map
+    MapGridInput cycle{.middle_distance_q6_bin = U16{0},
+                       .front_distance_q6_bin = U16{0}};  ///< measurements of the begun cycle
     uint8_t odometer_rest_q6 = 0;          ///< remainder of the conversion to 1/64 bin, [0, 24]
     int32_t cycle_position_q4_mm = 0;      ///< position at the last cycle
     uint16_t share_q15 = kNoSlipShareQ15;  ///< learned advance of a rim travel, [5460, 32768]

@@ -1,6 +1,7 @@
-// cycle.hpp - when a slip-and-sinkage cycle is due, of which motion, and how it is run.
+// cycle.hpp - when a slip-and-sinkage cycle is due, of which motion, and how it is run: in four
+// successive steps, so that no step is much longer than the others.
 // Depends on   executive/reporting.hpp (events), estimation/map_grid.hpp, firmware/inputs.
-// Bounds       at most one cycle a step.
+// Bounds       one part of a cycle a step; the next cycle begins behind the last part.
 // Design note  docs/design/controller.md     Tests  tests/firmware/executive/cycle_test.cpp
 #pragma once
 
@@ -51,13 +52,12 @@ constexpr bool watch_scan(ScanWatch& scan, const hal::RawInputs& inputs) {
     input.ahead_count = seen;
 }
 
-/// Rim travel since the last cycle in 1/64 bin, rounded down; the remainder is carried to the next.
-/// 1/16 mm times 4/25. More than 1 m is taken as 1 m.
+/// Rim travel since the last cycle began in 1/64 bin, rounded down; the remainder is carried to the
+/// next. 1/16 mm times 4/25. More than 1 m is taken as 1 m.
 [[gnu::noinline]] constexpr int16_t cycle_odometer_q6_bin(Controller& controller) {
     constexpr uint16_t kMetreQ4Mm = 16000;  // four of them fit 16 bits
-    const bool back = controller.since_cycle_q4_mm < 0;
-    const uint16_t way_q4_mm = min(abs_u16(controller.since_cycle_q4_mm), kMetreQ4Mm);
-    controller.since_cycle_q4_mm = 0;
+    const bool back = controller.in_cycle_q4_mm < 0;
+    const uint16_t way_q4_mm = min(abs_u16(controller.in_cycle_q4_mm), kMetreQ4Mm);
     const uint8_t before_q6 = controller.odometer_rest_q6;
     const uint8_t carried_q6 = back ? sub_wrap(uint8_t{24}, before_q6) : before_q6;
     const uint16_t way_q6 = add_wrap(shift_left_wrap<2>(way_q4_mm), widen_u16(carried_q6));
@@ -105,8 +105,10 @@ constexpr bool has_moved(int16_t height_q4_mm, int16_t rest_q4_mm) {
 }
 
 /// Has somebody moved the vehicle while its wheels stood still?
-constexpr bool moved_at_rest(Controller& controller, const LinkagePose& pose, bool moving) {
-    if (moving || pose.side == Side::none || pose.side != controller.side) {
+/// @pre  controller.travel is this step's
+constexpr bool moved_at_rest(Controller& controller) {
+    const LinkagePose& pose = controller.pose;
+    if (controller.travel.moving || pose.side == Side::none || pose.side != controller.side) {
         controller.resting = false;
         return false;
     }
@@ -139,40 +141,53 @@ constexpr int16_t forward_odometer(Controller& controller, int16_t odometer_q6_b
     return kCycleOdometerMaxQ6Bin;
 }
 
-/// Runs one slip-and-sinkage cycle.
+/// First part: takes the measurements of a cycle.
 /// @param looks_ahead  the samples can be joined to the pose: fresh, and ahead of the left wheels
-[[gnu::noinline]] constexpr void run_cycle(Controller& controller, const hal::RawInputs& inputs,
-                                           LinkagePose& pose, int16_t pitch_brad, bool looks_ahead,
-                                           CycleMotion motion) {
-    Estimates& estimates = controller.estimates;
-    MapGridInput input;
+[[gnu::noinline]] constexpr void measure_cycle(Controller& controller, const hal::RawInputs& inputs,
+                                               bool looks_ahead, CycleMotion motion) {
+    MapGridInput& input = controller.cycle;
+    LinkagePose& pose = controller.pose;
     input.motion = motion;
-    const int16_t odometer_q6_bin = cycle_odometer_q6_bin(controller);
-    input.odometer_q6_bin = odometer_q6_bin;
+    controller.in_cycle_q4_mm = controller.since_cycle_q4_mm;
+    input.odometer_q6_bin = cycle_odometer_q6_bin(controller);
     schedule_next(controller, motion);
-    if (motion == CycleMotion::turn || motion == CycleMotion::moved) {
-        book_unmeasured_way(controller, odometer_q6_bin);
+    input.ahead_count = 0;
+    controller.changed_side = false;
+    input.linkage = pose.side != Side::none;
+    if (!input.linkage) return;
+    controller.changed_side = controller.side != Side::none && controller.side != pose.side;
+    controller.side = pose.side;
+    input.middle_height_q4_mm = pose.middle_height_q4_mm;
+    input.front_height_q4_mm = pose.front_height_q4_mm;
+    add_distances(pose);
+    input.middle_distance_q6_bin = pose.middle_distance_q6_bin;
+    input.front_distance_q6_bin = pose.front_distance_q6_bin;
+    if (looks_ahead) {
+        add_look_ahead(controller, inputs, pose, controller.angles[hal::AngleChannel::pitch],
+                       input);
+    }
+}
+
+/// Second part: moves the position on to where the measurements were taken.
+constexpr void match_cycle(Controller& controller) {
+    MapGridInput& input = controller.cycle;
+    // A map made by one side says nothing about the ground of the other.
+    if (controller.changed_side) slip::drop_map(controller.map);
+    if (input.motion == CycleMotion::turn || input.motion == CycleMotion::moved) {
+        book_unmeasured_way(controller, input.odometer_q6_bin);
     } else {
-        input.odometer_q6_bin = forward_odometer(controller, odometer_q6_bin);
+        input.odometer_q6_bin = forward_odometer(controller, input.odometer_q6_bin);
     }
-    if (pose.side != Side::none) {
-        // A map made by one side says nothing about the ground of the other.
-        if (controller.side != Side::none && controller.side != pose.side) {
-            slip::drop_map(controller.map);
-        }
-        controller.side = pose.side;
-        input.linkage = true;
-        input.middle_height_q4_mm = pose.middle_height_q4_mm;
-        input.front_height_q4_mm = pose.front_height_q4_mm;
-        add_distances(pose);
-        input.middle_distance_q6_bin = pose.middle_distance_q6_bin;
-        input.front_distance_q6_bin = pose.front_distance_q6_bin;
-        if (looks_ahead) {
-            add_look_ahead(controller, inputs, pose, pitch_brad, input);
-        }
-    }
-    map_grid_step(controller.map, input);
-    if (motion != CycleMotion::moved) {
+    map_grid_match(controller.map, input);
+    controller.since_cycle_q4_mm =
+        sub_wrap(controller.since_cycle_q4_mm, controller.in_cycle_q4_mm);
+    take_position(controller);
+}
+
+/// Last part: the sensors are compared, and the results reported.
+constexpr void close_cycle(Controller& controller, const hal::RawInputs& inputs) {
+    Estimates& estimates = controller.estimates;
+    if (controller.cycle.motion != CycleMotion::moved) {
         watch_cycle(controller.stuck, inputs);
         const bool disagree =
             tachometers_disagree(controller.odometer, inputs.tach_present, controller.calibration);
@@ -181,6 +196,33 @@ constexpr int16_t forward_odometer(Controller& controller, int16_t odometer_q6_b
     estimates.cycle_count = add_wrap(estimates.cycle_count, uint16_t{1});
     set_event(estimates, kEventCycle);
     if (controller.map.lost_lock) set_event(estimates, kEventLostLock);
+    report_cycle(controller);
+}
+
+/// This step's part of a slip-and-sinkage cycle, if one has begun or is due.
+constexpr void cycle_step(Controller& controller, const hal::RawInputs& inputs, bool looks_ahead) {
+    if (controller.travel.moving) controller.resting = false;
+    switch (controller.stage) {
+        case CycleStage::none: {
+            CycleMotion motion = CycleMotion::moved;
+            if (!moved_at_rest(controller) && !cycle_due(controller, motion)) return;
+            measure_cycle(controller, inputs, looks_ahead, motion);
+            controller.stage = CycleStage::match;
+            return;
+        }
+        case CycleStage::match:
+            match_cycle(controller);
+            controller.stage = CycleStage::extend;
+            return;
+        case CycleStage::extend:
+            map_grid_extend(controller.map, controller.cycle);
+            controller.stage = CycleStage::close;
+            return;
+        case CycleStage::close:
+            close_cycle(controller, inputs);
+            controller.stage = CycleStage::none;
+            return;
+    }
 }
 
 }  // namespace rover::executive

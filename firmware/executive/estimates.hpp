@@ -28,13 +28,13 @@ enum Available : uint8_t {
 
 /// Bits of Estimates::events: set in the step in which something happened.
 enum Event : uint8_t {
-    kEventCycle = 1u << 0,         ///< a slip-and-sinkage cycle ran in this step
+    kEventCycle = 1u << 0,         ///< a slip-and-sinkage cycle was completed in this step
     kEventSlipAlarm = 1u << 1,     ///< slip alarm is up
     kEventSinkageAlarm = 1u << 2,  ///< sinkage alarm is up
     kEventLostLock = 1u << 3,      ///< the estimator has just declared loss of lock
     kEventTickGap = 1u << 4,       ///< ticks are missing between this step and the last
     kEventSensorFault = 1u << 5,   ///< a fault bit is set (see faults); absence is none
-    kEventOverspeed = 1u << 6,     ///< more than 60 mm of odometry in a single step
+    kEventOverspeed = 1u << 6,     ///< more than 15 mm of odometry in a step: cycles come late
 };
 
 /// Bits of Estimates::faults.

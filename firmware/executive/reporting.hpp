@@ -62,12 +62,16 @@ constexpr uint16_t learned_share_q15(const MapGrid& map) {
     return narrow_wrap_s16(narrow_wrap_u16(shift_floor<16>(mul_wide(twice, controller.share_q15))));
 }
 
-/// What only a cycle changes: copies what the estimator knows into the estimates.
+/// Takes over the estimator's position.
+[[gnu::noinline]] constexpr void take_position(Controller& controller) {
+    controller.cycle_position_q4_mm = q4_mm_from_q6_bin(controller.map.travelled_q6_bin);
+}
+
+/// What only a cycle changes, but the position: copies what the estimator knows into the estimates.
 [[gnu::noinline]] constexpr void report_cycle(Controller& controller) {
     Estimates& estimates = controller.estimates;
     const MapGrid& map = controller.map;
     estimates.mode = map.mode;
-    controller.cycle_position_q4_mm = q4_mm_from_q6_bin(map.travelled_q6_bin);
     controller.share_q15 = learned_share_q15(map);
     estimates.position_sigma_q4_mm = position_sigma_q4_mm(map);
     // Less than 5 m: a cycle's odometry is cut at one.

@@ -55,14 +55,14 @@ void expect_nothing_invented(const host_sim::Log& log, unsigned available) {
         ASSERT_EQ(estimates.slip_percent, 0);
         ASSERT_EQ(estimates.sinkage_q4_mm, 0);
     }
-    // Overspeed is no invention only where a step is longer than a cycle of 60 mm.
+    // Overspeed is no invention only where a step is longer than 15 mm.
     for (std::size_t step = 1; step < log.steps.size(); ++step) {
         if ((log.steps[step].estimates->events & rover::kEventOverspeed) == 0) continue;
         const double moved_mm =
             tachometer_travel_mm(log, step) - tachometer_travel_mm(log, step - 1);
         std::printf("overspeed at %.1f s: %.0f mm in a step\n", log.steps[step].time_ms / 1000.0,
                     moved_mm);
-        ASSERT_GT(std::abs(moved_mm), 60);
+        ASSERT_GT(std::abs(moved_mm), 15);
     }
     // 1/16 mm is one unit; what is below it is carried.
     for (std::size_t step = 0; step < log.steps.size(); step += 50) {

@@ -54,6 +54,19 @@ void add(Record& record, const rover::Odometer& value) {
     record.field("odometer.turn_q4_mm", value.turn_q4_mm);
 }
 
+void add(Record& record, const rover::MapGridInput& value) {
+    record.field("cycle.motion", value.motion);
+    record.field("cycle.linkage", value.linkage);
+    record.field("cycle.odometer_q6_bin", value.odometer_q6_bin);
+    record.field("cycle.middle_height_q4_mm", value.middle_height_q4_mm);
+    record.field("cycle.front_height_q4_mm", value.front_height_q4_mm);
+    record.field("cycle.middle_distance_q6_bin", value.middle_distance_q6_bin);
+    record.field("cycle.front_distance_q6_bin", value.front_distance_q6_bin);
+    record.field("cycle.ahead_count", value.ahead_count);
+    record.field("cycle.ahead_height_q4_mm", value.ahead_height_q4_mm);
+    record.field("cycle.ahead_distance_q6_bin", value.ahead_distance_q6_bin);
+}
+
 void add(Record& record, const rover::MapGrid& value) {
     record.field("map.surface_q4_mm", value.surface_q4_mm);
     record.field("map.ahead.height_q4_mm", value.ahead.height_q4_mm);
@@ -162,6 +175,10 @@ Record record_of(const rover::Controller& controller) {
     record.field("sensor_faults", controller.sensor_faults);
     record.field("past_due_q4_mm", controller.past_due_q4_mm);
     record.field("since_cycle_q4_mm", controller.since_cycle_q4_mm);
+    record.field("in_cycle_q4_mm", controller.in_cycle_q4_mm);
+    record.field("stage", controller.stage);
+    record.field("changed_side", controller.changed_side);
+    add(record, controller.cycle);
     record.field("odometer_rest_q6", controller.odometer_rest_q6);
     record.field("cycle_position_q4_mm", controller.cycle_position_q4_mm);
     record.field("share_q15", controller.share_q15);

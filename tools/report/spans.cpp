@@ -24,7 +24,7 @@ constexpr EventLane kEventLanes[] = {
     {LaneKind::sinkage_alarm, "Sinkage alarm", rover::kEventSinkageAlarm},
     {LaneKind::lost_lock, "Lost lock", rover::kEventLostLock},
     {LaneKind::tick_gap, "Ticks missing", rover::kEventTickGap},
-    {LaneKind::overspeed, "Faster than one cycle a step", rover::kEventOverspeed},
+    {LaneKind::overspeed, "Faster than 0.15 m/s", rover::kEventOverspeed},
 };
 
 std::vector<Candidate> candidates() {

@@ -50,6 +50,7 @@ struct Report {
     const Estimates& make(bool linkage) {
         controller.estimates.events = 0;
         controller.estimates.available = linkage ? kAvailableLinkage : 0;
+        rover::executive::take_position(controller);
         report_cycle(controller);
         report_map(controller);
         return controller.estimates;

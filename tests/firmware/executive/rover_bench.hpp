@@ -67,6 +67,10 @@ struct RoverBench {
         }
         return cycles;
     }
+    /// At rest until the begun cycle, if there is one, is complete.
+    void finish_cycle() {
+        while (controller.stage != rover::CycleStage::none) roll(0);
+    }
     /// A little converter noise on every angle that is near the middle, other in every cycle.
     void dither() {
         for (std::size_t i = 0; i < hal::kAngleChannelCount; ++i) {
