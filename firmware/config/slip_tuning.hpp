@@ -31,7 +31,6 @@ inline constexpr uint16_t kSigmaFloorQ8Mm = 26;      ///< 0.10 mm
 inline constexpr uint8_t kWidenPerCostQ8 = 179;      ///< 0.70
 inline constexpr uint16_t kWidenMaxQ8 = 768;         ///< 3.0
 inline constexpr int16_t kMisfitMaxQ4Mm = 2047;      ///< 128 mm: beyond, misfits are all the same
-inline constexpr uint8_t kScaleMax = 7;              ///< sigma of 16 mm / 2^7 = 0.125 mm at least
 /// Roughness from which on sigma counts as 16 mm (64 mm / sqrt 2 / 1.04, over what widens it), by
 /// quarters of the running cost.
 inline constexpr uint8_t kRoughOf16MmQ1[17] = {87, 87, 87, 87, 87, 87, 76, 66, 58,
@@ -73,10 +72,9 @@ inline constexpr uint8_t kSizeGainQ8[kSizeSteps + 1] = {
 inline constexpr uint16_t kSpreadStepQ6Bin = 8;           ///< 3.1 mm
 inline constexpr uint8_t kSpreadStepsMax = 2;             ///< a cycle
 inline constexpr uint16_t kSpreadMaxQ6Bin = 4000;         ///< 1.6 m; 16 times that fit in a word
-inline constexpr uint32_t kDriftReportedQ12Bin = 671089;  ///< 4.096 m: more is not told
-inline constexpr uint32_t kDriftPerLossQ12Bin = 8192;     ///< 5 cm for each loss of lock
-inline constexpr uint32_t kDriftPerMoveQ12Bin = 4096;     ///< 2.5 cm when moved by hand
-inline constexpr uint32_t kDriftPerTurnQ12Bin = 819;      ///< 0.5 cm per turning cycle
+inline constexpr uint16_t kDriftPerLossQ12Bin = 8192;     ///< 5 cm for each loss of lock
+inline constexpr uint16_t kDriftPerMoveQ12Bin = 4096;     ///< 2.5 cm when moved by hand
+inline constexpr uint16_t kDriftPerTurnQ12Bin = 819;      ///< 0.5 cm per turning cycle
 inline constexpr uint16_t kBendInformedQ3 = 19;  ///< below: 0.85 of the prior's variance or more
 /// Variance 2^14 / bend of a parabola in quarters of (1/64 bin)^2, by sixteenths of the bend.
 inline constexpr uint8_t kVarianceQ10[32] = {

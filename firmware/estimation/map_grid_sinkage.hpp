@@ -11,12 +11,6 @@
 
 namespace rover::slip {
 
-/// floor(64 a / b) for a < b; 63 for a = b; 0 for 0 / 0.
-[[gnu::noinline]] constexpr U8 ratio_q6(U8 a, U8 b) {
-    const U16 ratio = div_floor(shift_left_wrap<6>(widen_u16(a)), widen_u16(b));
-    return ratio < U16{64} ? narrow_wrap_u8(ratio) : U8{63};
-}
-
 /// Puts the sample into its bin; two in one bin are averaged. Bins that the front wheel has passed
 /// or that are beyond the ring take none.
 [[gnu::noinline]] constexpr void insert_sample(MapGrid& map, U16 place_q6_bin, S16 height_q4_mm) {
@@ -54,7 +48,7 @@ constexpr U8 believed_share_q7(const MapGrid& map) {
                          : add_wrap(by_rough, U8{4});
     const U8 signal = add_sat(size, shift_floor<2>(size));  // 0.64 = (4/5)^2
     if (noise >= signal) return U8{0};
-    const U8 ratio_q5 = shift_floor<1>(ratio_q6(noise, signal));
+    const U8 ratio_q5 = shift_floor<3>(ratio_q8(widen_u16(noise), widen_u16(signal)));
     return sub_wrap(U8{128}, kSquareQ3[index_of(add_wrap(ratio_q5, U8{128}))]);
 }
 
@@ -114,11 +108,8 @@ constexpr bool ground_at_front(const MapGrid& map, U16 split, S16& ground_q4_mm)
             const U16 span = sub_wrap(sample_place(bin, fraction), map.behind_place_q8_bin);
             const U16 along = sub_wrap(split, map.behind_place_q8_bin);
             if (span >= U16{kSpanMaxQ8Bin}) return false;
-            const U8 span_q4 = narrow_wrap_u8(shift_floor<4>(span));
-            const U8 along_q4 = narrow_wrap_u8(shift_floor<4>(along));
-            const U8 share = shift_left_wrap<2>(ratio_q6(along_q4, span_q4));
-            ground_q4_mm =
-                lerp_at(map.behind_height_q4_mm, map.ahead.height_q4_mm[ring_index(bin)], share);
+            ground_q4_mm = lerp_at(map.behind_height_q4_mm,
+                                   map.ahead.height_q4_mm[ring_index(bin)], ratio_q8(along, span));
             return true;
         }
         bin = add_wrap(bin, U8{1});
@@ -126,16 +117,22 @@ constexpr bool ground_at_front(const MapGrid& map, U16 split, S16& ground_q4_mm)
     return false;
 }
 
-/// Takes in this cycle's look-ahead samples and, when they bracket the front wheel, the sinkage.
-constexpr void look_ahead(MapGrid& map, const MapGridInput& input, S16 rear_height_q4_mm,
-                          U16 front) {
-    for (uint8_t i = 0; i < input.ahead_count && i < kLookAheadMax; ++i) {
-        insert_sample(map, add_wrap(map.place_q6_bin, input.ahead_distance_q6_bin[i]),
-                      add_wrap(rear_height_q4_mm, input.ahead_height_q4_mm[i]));
+/// Takes in this cycle's look-ahead samples.
+constexpr void insert_samples(MapGrid& map, const MapGridInput& input, S16 rear_height_q4_mm) {
+    static_assert(kLookAheadMax == 2);
+    if (input.ahead_count > 0) {
+        insert_sample(map, add_wrap(map.place_q6_bin, input.ahead_distance_q6_bin[0]),
+                      add_wrap(rear_height_q4_mm, input.ahead_height_q4_mm[0]));
     }
-    map.sinkage_valid = false;
-    if (front != map.front_place_q6_bin) return;
-    const U16 split = split_place(front);
+    if (input.ahead_count > 1) {
+        insert_sample(map, add_wrap(map.place_q6_bin, input.ahead_distance_q6_bin[1]),
+                      add_wrap(rear_height_q4_mm, input.ahead_height_q4_mm[1]));
+    }
+}
+
+/// The sinkage under the front wheel, when samples bracket it.
+constexpr void sense_sinkage(MapGrid& map) {
+    const U16 split = split_place(map.front_place_q6_bin);
     pass_samples(map, split);
     S16 ground{0};
     map.sinkage_valid = ground_at_front(map, split, ground);

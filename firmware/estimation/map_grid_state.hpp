@@ -58,12 +58,16 @@ struct MapGrid {
     U16 rough_q8_mm{slip::kInitialRoughQ8Mm};
     U16 match_cost_q10{slip::kInitialCostQ10};
     uint8_t learned = 0, rough_count = 0;
+    bool matched = false;  ///< in this cycle, with the two that follow
+    U8 cost_q3{0};         ///< of the match, squared sigmas
+    U16 added_variance_q12{0};
 
     U16 spread_q6_bin{0};    ///< root of the variance, rounded down
     U16 spread_rest_q12{0};  ///< what the root leaves of the variance
     U32 variance_q12{0};     ///< of the position, (1/64 bin)^2
     U32 drift_q12_bin{0};    ///< systematic part of the position uncertainty
 
+    bool front_is_new = false;   ///< the front wheel got to new ground in this cycle
     U8 passed_bin{0};            ///< bins before this one have been passed by the front wheel
     bool has_behind = false;     ///< `behind` is the last sample that the front wheel passed
     U16 behind_place_q8_bin{0};  ///< modulo 256 bins

@@ -27,8 +27,8 @@ inline constexpr uint16_t kNoSlipShareQ15 = 32768;
 enum class CycleStage : uint8_t {
     none,    ///< nothing: the next cycle may begin
     match,   ///< how far the vehicle got
-    extend,  ///< map and sinkage
-    close,   ///< sensors are compared, results reported
+    extend,  ///< what that says about slip, and the map
+    close,   ///< sinkage; sensors are compared, results reported
 };
 
 /// Everything the controller remembers.

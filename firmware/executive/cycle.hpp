@@ -184,9 +184,10 @@ constexpr void match_cycle(Controller& controller) {
     take_position(controller);
 }
 
-/// Last part: the sensors are compared, and the results reported.
+/// Last part: sinkage; the sensors are compared, and the results reported.
 constexpr void close_cycle(Controller& controller, const hal::RawInputs& inputs) {
     Estimates& estimates = controller.estimates;
+    map_grid_sinkage(controller.map, controller.cycle.motion);
     if (controller.cycle.motion != CycleMotion::moved) {
         watch_cycle(controller.stuck, inputs);
         const bool disagree =

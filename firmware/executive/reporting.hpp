@@ -36,23 +36,6 @@ constexpr void begin_step(Controller& controller, const hal::RawInputs& inputs) 
     estimates.tick_count = inputs.tick_count;
 }
 
-/// 1/64 bin to mm Q4: times 25/4, rounded down; exact modulo the width of the type.
-template <Word T>
-constexpr T q4_mm_from_q6_bin(T value) {
-    const T twice = shift_left_wrap<1>(value);
-    const T six_times = add_wrap(twice, shift_left_wrap<1>(twice));
-    return add_wrap(six_times, shift_floor<2>(value));
-}
-
-/// The learned mean as a share of the way without slip: u16 Q15, [5460, 32768].
-constexpr uint16_t learned_share_q15(const MapGrid& map) {
-    // 32768 / 9830 in Q14 is 54615.6; the product is at most 32768.2 in Q16.
-    constexpr uint16_t kPerMeanQ14 =
-        uint16_t{(536870912ul + slip::kMeanNoSlipQ12Bin / 2) / slip::kMeanNoSlipQ12Bin};
-    const uint16_t mean_q14_bin = shift_left_wrap<2>(narrow_wrap_u16(map.mean_q12_bin));
-    return narrow_wrap_u16(shift_floor<16>(mul_wide(mean_q14_bin, kPerMeanQ14)));
-}
-
 /// What the vehicle is taken to have advanced in a rim travel: the learned share forward, all of it
 /// backwards. The same in s16 Q4 mm and s16 1/64 bin; rounded down, one LSB at most from the share.
 [[gnu::noinline]] constexpr int16_t learned_advance(const Controller& controller,
@@ -62,9 +45,18 @@ constexpr uint16_t learned_share_q15(const MapGrid& map) {
     return narrow_wrap_s16(narrow_wrap_u16(shift_floor<16>(mul_wide(twice, controller.share_q15))));
 }
 
+/// 1/64 bin to mm Q4, rounded towards zero. Less than 5 m either way: a cycle's odometry is cut at one.
+constexpr int16_t advance_q4_mm(int16_t q6_bin) {
+    const uint16_t size = q4_mm_from_q6_bin(abs_u16(q6_bin));
+    return q6_bin < 0 ? neg_wrap(narrow_wrap_s16(size)) : narrow_wrap_s16(size);
+}
+
 /// Takes over the estimator's position.
 [[gnu::noinline]] constexpr void take_position(Controller& controller) {
-    controller.cycle_position_q4_mm = q4_mm_from_q6_bin(controller.map.travelled_q6_bin);
+    // 1/64 bin is 25/4 units of 1/16 mm, rounded down.
+    const S32 twice = shift_left_wrap<1>(controller.map.travelled_q6_bin);
+    controller.cycle_position_q4_mm = add_wrap(add_wrap(twice, shift_left_wrap<1>(twice)),
+                                               shift_floor<2>(controller.map.travelled_q6_bin));
 }
 
 /// What only a cycle changes, but the position: copies what the estimator knows into the estimates.
@@ -72,11 +64,10 @@ constexpr uint16_t learned_share_q15(const MapGrid& map) {
     Estimates& estimates = controller.estimates;
     const MapGrid& map = controller.map;
     estimates.mode = map.mode;
-    controller.share_q15 = learned_share_q15(map);
+    controller.share_q15 = slip::learned_share_q15(map);
     estimates.position_sigma_q4_mm = position_sigma_q4_mm(map);
-    // Less than 5 m: a cycle's odometry is cut at one.
-    estimates.advance_q4_mm = q4_mm_from_q6_bin(map.advance_q6_bin);
-    estimates.slip_percent = slip::slip_percent(map);
+    estimates.advance_q4_mm = advance_q4_mm(map.advance_q6_bin);
+    estimates.slip_percent = slip::slip_percent(controller.share_q15);
     estimates.match_cost_q4 = shift_floor<6>(map.match_cost_q10);
     estimates.sinkage_q4_mm = map.sinkage_q4_mm;
 }

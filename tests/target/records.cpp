@@ -86,10 +86,14 @@ void add(Record& record, const rover::MapGrid& value) {
     record.field("map.match_cost_q10", value.match_cost_q10);
     record.field("map.learned", value.learned);
     record.field("map.rough_count", value.rough_count);
+    record.field("map.matched", value.matched);
+    record.field("map.cost_q3", value.cost_q3);
+    record.field("map.added_variance_q12", value.added_variance_q12);
     record.field("map.spread_q6_bin", value.spread_q6_bin);
     record.field("map.spread_rest_q12", value.spread_rest_q12);
     record.field("map.variance_q12", value.variance_q12);
     record.field("map.drift_q12_bin", value.drift_q12_bin);
+    record.field("map.front_is_new", value.front_is_new);
     record.field("map.passed_bin", value.passed_bin);
     record.field("map.has_behind", value.has_behind);
     record.field("map.behind_place_q8_bin", value.behind_place_q8_bin);

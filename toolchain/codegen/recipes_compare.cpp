@@ -217,9 +217,80 @@ std::vector<Decision> decide(const Coder& start, Predicate predicate, const Byte
     return ways;
 }
 
+namespace {
+
+/// 0 or 1 out of bit 7 of A.
+void emit_top_bit(Coder& coder, bool inverted) {
+    if (inverted) coder.emit(0x2F);  // CMA
+    coder.emit(op::kRlc);
+    coder.emit_number(op::kAluImmediate | alu::kAna << 3, 1);
+}
+
+/// 1 where A is 0, else 0; or the other way round: 0 - 1 borrows alone.
+void emit_zero_as_byte(Coder& coder, bool inverted) {
+    coder.emit_number(op::kAluImmediate | alu::kSub << 3, 1);
+    coder.emit(0x9F);  // SBB A
+    if (inverted) {
+        coder.emit(by_register(op::kInr, Register::a));
+    } else {
+        coder.emit_number(op::kAluImmediate | alu::kAna << 3, 1);
+    }
+}
+
+/// A becomes 0 where two values are equal, if they are bytes or one of them is 0. Else it fails.
+void load_difference(Coder& coder, const Bytes& left, const Bytes& right) {
+    const bool zero = all(coder, right, 0);
+    if (!zero && left.size() > 1) coder.failed = true;
+    for (std::size_t i = 0; i < left.size() && !coder.failed; ++i) {
+        if (i == 0) {
+            take(coder, left, right, 0);
+            if (!zero && !coder.failed) alu_on_a(coder, alu::kXra, right[0]);
+        } else {
+            alu_on_a(coder, alu::kOra, left[i]);
+        }
+        coder.set(Register::a, kNone);
+    }
+}
+
+/// Does decide() leave the answer in bit 7 of A: a signed comparison that is not one with 0?
+bool leaves_less_in_a(const Coder& start, const Operation& operation) {
+    const bool negated = (static_cast<uint8_t>(operation.predicate) & 1U) != 0;
+    const Predicate predicate = negated ? inverse(operation.predicate) : operation.predicate;
+    return predicate == Predicate::less && !all(start, operation.right, 0) &&
+           !all(start, operation.left, 0xFF);
+}
+
+/// Comparisons for equality and with 0 that need no jump.
+void add_compare_without_jump(Ways& ways, const Coder& start, const Operation& operation) {
+    const bool negated = (static_cast<uint8_t>(operation.predicate) & 1U) != 0;
+    const Predicate predicate = negated ? inverse(operation.predicate) : operation.predicate;
+    if (predicate == Predicate::equal) {
+        add_way(ways, start, [&](Coder& coder) {
+            load_difference(coder, operation.left, operation.right);
+            if (coder.failed) return;
+            emit_zero_as_byte(coder, negated);
+            coder.set(Register::a, operation.results[0]);
+            coder.state.tested = operation.results[0];
+        });
+    } else if (predicate == Predicate::less && all(start, operation.right, 0)) {
+        add_way(ways, start, [&](Coder& coder) {
+            coder.load(Register::a, operation.left.back());
+            coder.vacate(Register::a, true);
+            if (coder.failed) return;
+            emit_top_bit(coder, negated);
+            coder.set(Register::a, operation.results[0]);
+            coder.state.tested = operation.results[0];
+        });
+    }
+}
+
+}  // namespace
+
 void add_compare(Ways& ways, const Coder& start, const Operation& operation,
                  const RecipeContext& context) {
+    add_compare_without_jump(ways, start, operation);
     const Targets targets{context.label(), context.label()};
+    const bool ends_with_less = leaves_less_in_a(start, operation);
     for (Decision& way :
          decide(start, operation.predicate, operation.left, operation.right, targets)) {
         Coder coder = std::move(way.coder);
@@ -233,6 +304,9 @@ void add_compare(Ways& ways, const Coder& start, const Operation& operation,
             } else {
                 coder.emit(by_register(op::kInr, Register::a));
             }
+        } else if (ends_with_less) {
+            emit_top_bit(coder, way.condition == Condition::p);
+            coder.state.tested = kNone;
         } else {
             const uint32_t end = context.label();
             constexpr double kHalf = 0.5;

@@ -44,6 +44,11 @@ Value* expand_choice(Builder& builder, const llvm::IntrinsicInst& call) {
             predicate = Predicate::ICMP_SGT;
             break;
     }
+    const auto* constant = llvm::dyn_cast<llvm::Constant>(right);
+    if (predicate == Predicate::ICMP_SGT && constant != nullptr && constant->isNullValue()) {
+        // Its sign alone decides.
+        return builder.CreateSelect(builder.CreateICmpSLT(left, right), right, left);
+    }
     return builder.CreateSelect(builder.CreateICmp(predicate, left, right), left, right);
 }
 

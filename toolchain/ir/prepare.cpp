@@ -53,6 +53,7 @@ void prepare(llvm::Module& module) {
         run("choose_results", choose_results);
         run("split_conditions", split_conditions);
         run("expand_selects", expand_selects);
+        run("split_conditions", split_conditions);  // those of selects
         run("place_near_use", place_near_use);
     }
 }

@@ -35,7 +35,8 @@ const char* broken(const MapGrid& map, const MapGrid& before) {
     const auto travelled = static_cast<uint16_t>(static_cast<uint32_t>(map.travelled_q6_bin) -
                                                  static_cast<uint32_t>(before.travelled_q6_bin));
     if (moved != travelled || moved != static_cast<uint16_t>(map.advance_q6_bin)) return "place";
-    if (slip::slip_percent(map) < 0 || slip::slip_percent(map) > 84) return "slip_percent";
+    const auto slip_percent = slip::slip_percent(slip::learned_share_q15(map));
+    if (slip_percent < 0 || slip_percent > 84) return "slip_percent";
     return nullptr;
 }
 

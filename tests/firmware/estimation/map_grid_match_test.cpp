@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <random>
@@ -53,7 +54,7 @@ TEST(SquareTable, IsTheSquareOfTheMiddleOfAStepWithinHalfOf1SixteenthUpTo5p6Sigm
 
 // 16 mm halved 0 to 7 times; 1.04 sigma is what squares of a rounded exponent have on average. The
 // cost is known in quarters and the limit in 1/31 at worst: 3 % + 12 % at cost 1.5.
-TEST(ResidualScale, SigmaIsAQuarterOfTheRoughnessWidenedWithin61Percent) {
+TEST(ResidualSigma, SigmaIsAQuarterOfTheRoughnessWidenedWithin61Percent) {
     MapGrid map;
     double worst = 0;
     for (uint16_t rough = 103; rough < 16000; rough = static_cast<uint16_t>(rough + 37)) {
@@ -63,24 +64,24 @@ TEST(ResidualScale, SigmaIsAQuarterOfTheRoughnessWidenedWithin61Percent) {
             const double widen = std::min(3.0, std::max(1.0, 0.7 * cost));
             const double wanted_mm = std::max(1.04 * rough / 256.0 / 4 * widen, 0.125);
             if (wanted_mm > 16) continue;
-            const double sigma_mm = std::ldexp(16, -residual_scale(map));
+            const double sigma_mm = residual_sigma_q3_mm(map) / 8.0;
             worst = std::max(worst, std::abs(std::log2(sigma_mm / wanted_mm)));
         }
     }
     EXPECT_LE(worst, 0.5 + std::log2(1.15));
 }
 
-TEST(ResidualScale, StaysWithinZeroAndSevenForEveryRoughnessAndCost) {
+TEST(ResidualSigma, IsAnOctaveForEveryRoughnessAndCost) {
     MapGrid map;
     for (int rough = 0; rough <= kRoughMaxQ8Mm; ++rough) {
         map.rough_q8_mm = static_cast<U16>(rough);
         for (int cost = 0; cost <= kReacquireCostQ10; cost += 256) {
             map.match_cost_q10 = static_cast<U16>(cost);
-            ASSERT_LE(residual_scale(map), kScaleMax);
+            ASSERT_TRUE(std::has_single_bit(native(residual_sigma_q3_mm(map))));
         }
     }
     map.rough_q8_mm = kRoughMaxQ8Mm;
-    EXPECT_EQ(residual_scale(map), 0);
+    EXPECT_EQ(residual_sigma_q3_mm(map), 128);
 }
 
 /// The middle wheel's misfit in mm with the rear wheel on a node of the hills.
@@ -97,7 +98,7 @@ TEST(FindMisfits, AreThoseOfTheHillsInEighthsOfSigmaAndMeansInBetween) {
         scene.map.rough_q8_mm = 20 * 256;  // sigma 4 mm
         scene.input.middle_distance_q6_bin = static_cast<U16>(distance_q6);
         const double distance_bin = std::floor(distance_q6 / 4.0 + 0.5) / 16;  // 1/16 bin
-        const double step_mm = std::ldexp(16, -residual_scale(scene.map)) / 8;
+        const double step_mm = residual_sigma_q3_mm(scene.map) / 64.0;
         EXPECT_EQ(step_mm, 0.5);
         Match match;
         find_misfits(scene.map, scene.input, U8{2}, match);
@@ -273,7 +274,7 @@ TEST(MatchAdvance, LevelGroundGivesTheLearnedMean) {
         input.odometer_q6_bin = 154;
         const double expected = mean_cm / 2.5 * 64 + 0.4;
         EXPECT_NEAR(match_advance(map, input), expected, 1.5) << mean_cm;
-        EXPECT_EQ(map.variance_q12, kPriorVarianceQ12);  // the ground said nothing
+        EXPECT_EQ(map.added_variance_q12, kPriorVarianceQ12);  // the ground said nothing
         EXPECT_GT(map.drift_q12_bin, 0u);
     }
 }

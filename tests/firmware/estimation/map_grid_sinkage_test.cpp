@@ -17,16 +17,6 @@ MapGrid at_front(int bin) {
     return map;
 }
 
-TEST(RatioQ6, Is64TimesTheRatioRoundedDown) {
-    EXPECT_EQ(ratio_q6(U8{0}, U8{0}), 0);
-    for (int b = 1; b < 256; ++b) {
-        for (int a = 0; a <= b; ++a) {
-            const int wanted = a == b ? 63 : 64 * a / b;
-            ASSERT_EQ(ratio_q6(static_cast<U8>(a), static_cast<U8>(b)), wanted) << a << " " << b;
-        }
-    }
-}
-
 TEST(InsertSample, GoesIntoItsBinWithItsPlaceInIt) {
     for (int place = 0; place < 65536; place += 61) {
         MapGrid map = at_front(place / 64 - 5);
@@ -162,7 +152,7 @@ TEST(SmoothSinkage, BelowTheNoiseIsNotBelieved) {
     EXPECT_EQ(map.sinkage_q4_mm, 0);
 }
 
-TEST(LookAhead, SinkageIsGroundMinusSurfaceUnderTheFrontWheel) {
+TEST(SenseSinkage, SinkageIsGroundMinusSurfaceUnderTheFrontWheel) {
     S16 flat[kKnownNodes] = {};
     MapGrid map;
     start_on_known_ground(map, flat);
@@ -174,21 +164,24 @@ TEST(LookAhead, SinkageIsGroundMinusSurfaceUnderTheFrontWheel) {
     input.ahead_distance_q6_bin[0] = 1200;
     input.ahead_distance_q6_bin[1] = 1500;
     input.ahead_height_q4_mm[0] = input.ahead_height_q4_mm[1] = 40 * 16;
-    look_ahead(map, input, S16{0}, 1280);
+    insert_samples(map, input, S16{0});
+    sense_sinkage(map);
     EXPECT_TRUE(map.sinkage_valid);
     EXPECT_NEAR(map.sinkage_q4_mm / 16.0, 40, 1);
 }
 
-TEST(LookAhead, WithoutSamplesAroundTheFrontWheelIsNotValid) {
+TEST(SenseSinkage, WithoutSamplesAroundTheFrontWheelIsNotValid) {
     S16 flat[kKnownNodes] = {};
     MapGrid map;
     start_on_known_ground(map, flat);
     MapGridInput input;
-    look_ahead(map, input, S16{0}, 1280);
+    insert_samples(map, input, S16{0});
+    sense_sinkage(map);
     EXPECT_FALSE(map.sinkage_valid);
     input.ahead_count = 1;
     input.ahead_distance_q6_bin[0] = 1536;
-    look_ahead(map, input, S16{0}, 1280);
+    insert_samples(map, input, S16{0});
+    sense_sinkage(map);
     EXPECT_FALSE(map.sinkage_valid);
 }
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace {
 
@@ -16,6 +18,17 @@ MapGrid with_heights(double (*height_q4)(int node), int first, int count) {
         node_height(map, static_cast<U16>(node)) = static_cast<S16>(std::lround(height_q4(node)));
     }
     return map;
+}
+
+TEST(RatioQ8, Is256TimesTheRatioRoundedHalfUp) {
+    std::mt19937 random(20261122);
+    for (int trial = 0; trial < 200000; ++trial) {
+        const auto b = static_cast<unsigned>(1 + random() % 32767);
+        const auto a = static_cast<unsigned>(random() % (b + 1));
+        const unsigned wanted = std::min((512 * a + b) / (2 * b), 255U);
+        ASSERT_EQ(ratio_q8(static_cast<U16>(a), static_cast<U16>(b)), wanted) << a << " " << b;
+    }
+    EXPECT_EQ(ratio_q8(U16{0}, U16{0}), 255) << "defined, and in nobody's way";
 }
 
 TEST(SurfaceAt, IsTheLineBetweenTwoNodesRoundedHalfUp) {

@@ -34,7 +34,9 @@ TEST(SlipTuning, IsTheDoubleModelsWithinRounding) {
     EXPECT_EQ(tuning.prior_sigma_cm, tuning.bin_cm / 2);
     EXPECT_EQ(kPriorVarianceQ12, std::pow(tuning.prior_sigma_cm / 2.5 * 64, 2));
     EXPECT_EQ(1.6, tuning.sigma_max_cm);
-    EXPECT_EQ(1.6 / (1 << kScaleMax), tuning.sigma_floor_cm);
+    MapGrid smooth;  // 1/8 mm is the least sigma that there is
+    smooth.rough_q8_mm = 0;
+    EXPECT_EQ(residual_sigma_q3_mm(smooth) / 80.0, tuning.sigma_floor_cm);
     for (int quarter = 0; quarter <= 16; ++quarter) {
         const double cost = quarter < 16 ? (quarter + 0.5) / 4 : 4;
         const double widen = std::clamp(tuning.sigma_per_cost * cost, 1.0, tuning.sigma_widen_max);
@@ -66,7 +68,7 @@ TEST(SlipPercent, IsThatOfTheLearnedMeanWithinOnePercent) {
     for (int mean = slip::kMeanMinQ12Bin; mean <= slip::kMeanNoSlipQ12Bin; ++mean) {
         map.mean_q12_bin = static_cast<S16>(mean);
         const double slip_percent = 100 * (1 - mean / 4096.0 * 2.5 / 6);
-        ASSERT_NEAR(slip::slip_percent(map), slip_percent, 0.6) << mean;
+        ASSERT_NEAR(slip::slip_percent(slip::learned_share_q15(map)), slip_percent, 0.6) << mean;
     }
 }
 

@@ -10,15 +10,25 @@ namespace {
 using namespace rover;
 using namespace rover::executive;
 
-TEST(Q4MmFromQ6Bin, IsTwentyFiveQuartersRoundedDownModulo32Bits) {
+TEST(TakePosition, IsTwentyFiveQuartersRoundedDownModulo32Bits) {
     for (const std::int64_t value :
          {0ll, 1ll, 2ll, 3ll, -1ll, -2ll, -3ll, -4ll, 153ll, 100'000'007ll, -340'000'001ll,
           2'147'483'647ll, -2'147'483'648ll}) {
         const std::int64_t exact = (value * 25 - ((value * 25 % 4) + 4) % 4) / 4;
-        EXPECT_EQ(q4_mm_from_q6_bin(static_cast<std::int32_t>(value)),
+        Controller controller;
+        controller.map.travelled_q6_bin = static_cast<std::int32_t>(value);
+        take_position(controller);
+        EXPECT_EQ(controller.cycle_position_q4_mm,
                   static_cast<std::int32_t>(static_cast<std::uint32_t>(exact & 0xFFFFFFFF)))
             << value;
     }
+}
+
+TEST(AdvanceQ4Mm, IsTwentyFiveQuartersRoundedTowardsZero) {
+    for (int advance = -5000; advance <= 5000; ++advance) {
+        ASSERT_EQ(advance_q4_mm(static_cast<std::int16_t>(advance)), advance * 25 / 4) << advance;
+    }
+    EXPECT_EQ(q4_mm_from_q6_bin(10485), 65531);
 }
 
 // Rounded down, and up to one more or less for the share's own rounding.

@@ -31,7 +31,7 @@ void add_map_grid(const MapGrid& map, Checksum& sum) {
     sum.add(map.match_cost_q10);
     sum.add(map.sinkage_q4_mm);
     sum.add(position_sigma_q4_mm(map));
-    sum.add(slip::slip_percent(map));
+    sum.add(slip::slip_percent(slip::learned_share_q15(map)));
     sum.add(static_cast<uint8_t>(map.mode));
     for (const S16 height : map.surface_q4_mm) sum.add(height);
 }
