@@ -26,30 +26,36 @@ constexpr bool watch_scan(ScanWatch& scan, const hal::RawInputs& inputs) {
     return present && scan.age_steps <= kScanFreshSteps;
 }
 
-/// Fills in the look-ahead part of a cycle's input and of the estimates.
+/// Joins a range sample to the pose, as the next one of the begun cycle.
+/// @param height_q4_mm  the same, for the estimates
+[[gnu::noinline]] constexpr void add_sample(Controller& controller, const LookAhead& view,
+                                            int16_t range_q1_mm, int16_t& height_q4_mm) {
+    const hal::Calibration& calibration = controller.calibration;
+    GroundPoint point;
+    ground_point(view, sub_sat(range_q1_mm, calibration.range_offset_q1_mm),
+                 calibration.wheel_radius_q4_mm, point);
+    MapGridInput& input = controller.cycle;
+    const uint8_t seen = bit_and(input.ahead_count, uint8_t{1});
+    input.ahead_height_q4_mm[seen] = point.height_q4_mm;
+    input.ahead_distance_q6_bin[seen] = point.distance_q6_bin;
+    ++input.ahead_count;
+    height_q4_mm = point.height_q4_mm;
+}
+
+/// Fills in the look-ahead part of the begun cycle and of the estimates.
 [[gnu::noinline]] constexpr void add_look_ahead(Controller& controller,
-                                                const hal::RawInputs& inputs,
-                                                const LinkagePose& pose, int16_t pitch_brad,
-                                                MapGridInput& input) {
+                                                const hal::RawInputs& inputs) {
+    static_assert(vehicle::kLookAheadCount == 2);
+    int16_t* const height_q4_mm = controller.estimates.height_ahead_q4_mm;
     LookAhead view;
-    look_ahead(pose, pitch_brad, view);
-    uint8_t present = inputs.range_present;
-    uint8_t seen = 0;
-    for (uint8_t i = 0; i < vehicle::kLookAheadCount; ++i) {
-        if (bit_and(present, uint8_t{1}) != 0) {
-            GroundPoint point;
-            ground_point(view,
-                         sub_sat(inputs.range_q1_mm[i], controller.calibration.range_offset_q1_mm),
-                         controller.calibration.wheel_radius_q4_mm, point);
-            input.ahead_height_q4_mm[seen] = point.height_q4_mm;
-            input.ahead_distance_q6_bin[seen] = point.distance_q6_bin;
-            ++seen;
-            controller.estimates.height_ahead_q4_mm[i] = point.height_q4_mm;
-        }
-        present = shift_floor<1>(present);
-        look_further(view);
+    look_ahead(controller.pose, controller.angles[hal::AngleChannel::pitch], view);
+    if (bit_and(inputs.range_present, uint8_t{1}) != 0) {
+        add_sample(controller, view, inputs.range_q1_mm[0], height_q4_mm[0]);
     }
-    input.ahead_count = seen;
+    if (bit_and(inputs.range_present, uint8_t{2}) != 0) {
+        look_further(view);
+        add_sample(controller, view, inputs.range_q1_mm[1], height_q4_mm[1]);
+    }
 }
 
 /// Rim travel since the last cycle began in 1/64 bin, rounded down; the remainder is carried to the
@@ -162,10 +168,7 @@ constexpr int16_t forward_odometer(Controller& controller, int16_t odometer_q6_b
     add_distances(pose);
     input.middle_distance_q6_bin = pose.middle_distance_q6_bin;
     input.front_distance_q6_bin = pose.front_distance_q6_bin;
-    if (looks_ahead) {
-        add_look_ahead(controller, inputs, pose, controller.angles[hal::AngleChannel::pitch],
-                       input);
-    }
+    if (looks_ahead) add_look_ahead(controller, inputs);
 }
 
 /// Second part: moves the position on to where the measurements were taken.
