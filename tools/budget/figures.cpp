@@ -34,6 +34,7 @@ void add_modules(Numbers& numbers, const Figures& figures) {
         if (kind == ModuleKind::library || kind == ModuleKind::idle) continue;
         numbers[prefix + "t_states_total"] = time.total_t;
         numbers[prefix + "t_states_worst"] = time.worst_t;
+        if (is_spread(figures, i)) numbers[prefix + "t_states_worst_run"] = time.worst_run_t;
     }
 }
 
@@ -48,6 +49,12 @@ uint64_t number_of(const std::string& text, std::string_view file, std::size_t l
 }
 
 }  // namespace
+
+bool is_spread(const Figures& figures, std::size_t module) {
+    const StepTime& time = figures.profile.modules[module];
+    return figures.modules[module].kind == ModuleKind::step && time.worst_run_t > time.worst_t &&
+           2 * time.steps < figures.profile.steps;
+}
 
 double mean_t(const Figures& figures, const StepTime& time) {
     const uint64_t steps = figures.profile.steps;

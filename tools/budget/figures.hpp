@@ -47,6 +47,9 @@ struct Figures {
 /// Mean T-states a step, over all steps.
 [[nodiscard]] double mean_t(const Figures& figures, const StepTime& time);
 
+/// Does a module work in a part of the steps only, and then in several in a row?
+[[nodiscard]] bool is_spread(const Figures& figures, std::size_t module);
+
 /// Every number that is reviewed. A module that takes no bytes and no time has none.
 [[nodiscard]] Numbers numbers_of(const Figures& figures);
 

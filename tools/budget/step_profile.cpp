@@ -51,6 +51,8 @@ std::string_view input_name(InterruptInput input) {
 }
 
 void StepTime::take(uint64_t t, const std::string& log, uint64_t step) {
+    run_t = t == 0 || step == 0 ? t : run_t + t;
+    worst_run_t = std::max(worst_run_t, run_t);
     if (t == 0) return;
     total_t += t;
     ++steps;

@@ -31,6 +31,8 @@ struct StepTime {
     uint64_t steps = 0;  ///< in which it took any time
     uint64_t worst_t = 0;
     WorstPlace worst;
+    uint64_t run_t = 0;        ///< of the steps in a row with any time, the last one included
+    uint64_t worst_run_t = 0;  ///< the most of all such rows: work that is spread over steps
 
     void take(uint64_t t, const std::string& log, uint64_t step);
 };

@@ -53,6 +53,22 @@ Table time_table(const Figures& figures) {
     return table;
 }
 
+/// Modules whose work is spread over several steps in a row. No rows: there is none.
+Table spread_table(const Figures& figures) {
+    Table table{"Work spread over successive steps: T-states of all of them together",
+                {"T-states", "in a step, worst", "together, worst", "ms", "ms, 2 MHz"},
+                {}};
+    for (std::size_t i = 0; i < figures.modules.size(); ++i) {
+        if (!is_spread(figures, i)) continue;
+        const StepTime& time = figures.profile.modules[i];
+        const auto together = static_cast<double>(time.worst_run_t);
+        table.rows.push_back({figures.modules[i].name, fmt::format("{}", time.worst_t),
+                              fmt::format("{}", time.worst_run_t), ms_text(together, kClockMhz),
+                              ms_text(together, kSlowClockMhz)});
+    }
+    return table;
+}
+
 Table byte_table(const Figures& figures) {
     Table table{"Modules: bytes", {"bytes", "ROM", "RAM", "stack"}, {}};
     uint32_t rom = 0;
@@ -153,8 +169,12 @@ std::string ms_text(double t_states, double clock_mhz) {
 
 std::vector<Table> tables_of(const Review& review) {
     const Figures& figures = review.figures;
-    std::vector<Table> tables = {step_table(figures), time_table(figures), byte_table(figures),
-                                 interrupt_table(figures)};
+    std::vector<Table> tables = {step_table(figures), time_table(figures)};
+    if (Table spread = spread_table(figures); !spread.rows.empty()) {
+        tables.push_back(std::move(spread));
+    }
+    tables.push_back(byte_table(figures));
+    tables.push_back(interrupt_table(figures));
     if (figures.operations) tables.push_back(operation_table(*figures.operations));
     tables.push_back(limit_table(review));
     if (!review.against.empty()) {

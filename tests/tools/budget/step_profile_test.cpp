@@ -116,6 +116,19 @@ TEST(StepProfile, StepsBeforeTheLogDoNotCount) {
     EXPECT_EQ(program.figures().modules[kWork].worst, (rover_budget::WorstPlace{"b", 0}));
 }
 
+TEST(StepTime, WorkInStepsInARowIsAddedUpAndEndsWithAStepWithoutAndWithTheLog) {
+    rover_budget::StepTime time;
+    uint64_t step = 0;
+    for (const uint64_t t : {5u, 0u, 7u, 2u, 4u, 0u, 9u, 3u}) time.take(t, "a", step++);
+    EXPECT_EQ(time.worst_run_t, 13u);  // 7 + 2 + 4
+    EXPECT_EQ(time.worst_t, 9u);
+    EXPECT_EQ(time.steps, 6u);
+    step = 0;
+    for (const uint64_t t : {4u, 6u, 0u}) time.take(t, "b", step++);
+    EXPECT_EQ(time.worst_run_t, 13u) << "not 9 + 3 + 4 + 6";
+    EXPECT_EQ(time.total_t, 40u);
+}
+
 TEST(StepProfile, TheDeepestStackThatWasSeen) {
     Profiled program;
     program.run(kFirstEndT);
