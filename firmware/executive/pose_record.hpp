@@ -14,11 +14,11 @@ namespace rover {
 inline constexpr uint8_t kPoseRecordFormat = 1;
 
 struct PoseRecord {
-    int32_t travelled_q6_bin = 0;   ///< place of the last cycle
+    int32_t travelled_q6_bin = 0;   ///< place of the last match
     int32_t odometer_q4_mm = 0;     ///< wheel odometry
     uint32_t variance_q12 = 0;      ///< of the position, (1/64 bin)^2
     uint32_t drift_q12_bin = 0;     ///< systematic part of the position uncertainty
-    int16_t since_cycle_q4_mm = 0;  ///< odometry since the last cycle
+    int16_t since_cycle_q4_mm = 0;  ///< odometry that no match has measured yet
     int16_t turn_q4_mm = 0;         ///< turn since the last cycle
     int16_t mean_q12_bin = slip::kMeanNoSlipQ12Bin;  ///< learned advance of a 6 cm cycle
     uint8_t learned = 0;                             ///< cycles behind it, [0, slip::kLearnSteps]
