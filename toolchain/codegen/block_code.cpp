@@ -358,10 +358,14 @@ private:
         coder.emit(by_pair(op::kLxi, Pair::hl), operand);
         coder.emit(op::kJmp,
                    {CodeOperand::Kind::symbol, CodeOperand::Part::word, setting_.jump_index, 0});
-        coder.forget(static_cast<RegisterSet>(set_of(Register::a) | set_of(Pair::hl)));
+        const auto used = static_cast<RegisterSet>(set_of(Register::a) | set_of(Pair::hl));
+        coder.forget(used);
         coder.release();
         std::vector<CodeItem> items = coder.items;
-        if (!items.empty()) items.back().reads = set_of(Register::a) | set_of(Pair::hl);
+        if (!items.empty()) {
+            items.back().reads = used;
+            items.back().writes = static_cast<RegisterSet>(used | set_of(Register::flags));
+        }
         std::vector<CodeItem> cold;
         double cost = coder.cost + 80;  // of __jumpindex
         items.push_back(label_item(table));

@@ -139,8 +139,9 @@ void top_quarter(Effects& effects, const CodeItem& item) {
     if ((opcode & 0xCFU) == 0xC1) effects.writes |= pushed;
     if ((opcode & 7U) == 6) arithmetic(effects, opcode >> 3 & 7U, kMemory, true);
     switch (opcode) {
-        case 0xC3:  // JMP: to a routine like a call that does not come back
+        case 0xC3:  // JMP: to a routine like a call that comes back somewhere else
             effects.reads |= of(item.reads);
+            effects.writes |= of(item.writes);
             break;
         case 0xD3:  // OUT
             effects.reads |= kA;

@@ -141,6 +141,16 @@ TEST(Effects, CallsAreWhatTheirItemSays) {
     EXPECT_FALSE(effects.pure);
 }
 
+// To the routine for tables: what it used is no longer there at the labels.
+TEST(Effects, AJumpDestroysWhatItsItemSays) {
+    CodeItem jump;
+    jump.opcode = 0xC3;
+    jump.reads = static_cast<RegisterSet>(set_of(Register::a) | set_of(Register::h));
+    jump.writes = static_cast<RegisterSet>(set_of(Register::a) | set_of(Register::flags));
+    EXPECT_EQ(effects_of(jump).reads, resource::kA | resource::of(4U));
+    EXPECT_EQ(effects_of(jump).writes, resource::kA | resource::kFlags);
+}
+
 TEST(Effects, JumpsAndReturnsReadTheirFlag) {
     CodeItem item;
     item.opcode = 0xDA;  // JC

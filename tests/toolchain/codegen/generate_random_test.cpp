@@ -39,8 +39,8 @@ RandomLimits limits_for(uint64_t seed) {
 }
 
 TEST(GenerateRandom, MachineCodeDoesWhatTheInterpreterDoes) {
-    const uint64_t first = from_environment("ROVER_MIR_SEED", 1);
-    const uint64_t count = from_environment("ROVER_MIR_COUNT", 30);
+    const uint64_t first = from_environment("ROVER_MIR_SEED", 60);
+    const uint64_t count = from_environment("ROVER_MIR_COUNT", 150);
     std::size_t functions = 0;
     for (uint64_t seed = first; seed < first + count; ++seed) {
         const RandomProgram program = random_program(seed, limits_for(seed));
