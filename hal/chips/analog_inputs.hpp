@@ -19,11 +19,20 @@ template <class Bus, class Adc, class Ppi>
 struct AnalogInputs {
     static constexpr uint8_t kConversions = 16;
 
+    /// At 0 V: selected while nobody needs the converter.
+    static constexpr uint8_t kNobody = 14;
+
+    // -- Task: between claim() and release()
+
+    /// From now on handlers leave the converter alone. One that is in the middle of a conversion
+    /// has lost it: 108 T later the converter is free.
+    static void claim() { Ppi::write_a(0); }
+    static void release() { Ppi::write_a(kNobody); }
+
     /// Sum of 16 conversions.
     /// @param channel  multiplexer input, [0, 15]
     /// @param sum      u16 Q4 counts, [0, 65520]; kAdcAbsent without an answer
     /// @return   false: no answer; the converter was busy, or a conversion had no end
-    /// @context  task, interrupts enabled; disables them for one conversion at a time
     [[nodiscard]] static bool sum_of_16(uint8_t channel, uint16_t& sum) {
         sum = kAdcAbsent;
         Ppi::write_a(channel);
@@ -31,12 +40,10 @@ struct AnalogInputs {
         uint16_t high_sum = 0;
         uint8_t low_sum = 0;  // 16 times 15 at most
         uint8_t left = kConversions - 1;
-        Bus::disable_interrupts();
         Adc::start();
         while (Adc::wait()) {
             const uint8_t high = Adc::high();
             const uint8_t low = Adc::low();
-            Bus::let_interrupts_in();
             Adc::start(low);
             high_sum = static_cast<uint16_t>(high_sum + high);
             low_sum = static_cast<uint8_t>(low_sum + (low >> 4));
@@ -46,30 +53,31 @@ struct AnalogInputs {
             if (!Adc::wait()) break;
             high_sum = static_cast<uint16_t>(high_sum + Adc::high());
             low_sum = static_cast<uint8_t>(low_sum + (Adc::low() >> 4));
-            Bus::enable_interrupts();
             sum = static_cast<uint16_t>((high_sum << 4) + low_sum);
             return true;
         }
-        Bus::enable_interrupts();
         return false;
     }
 
-    /// One conversion of one channel. Leaves the multiplexer as it was.
-    /// @return   u16 Q4 counts as sum_of_16(), a multiple of 16; kAdcAbsent without an end
-    /// @context  interrupts disabled: a handler
-    static uint16_t convert(uint8_t channel) {
-        const uint8_t before = Ppi::read_a();
+    // -- Handler: starts a conversion, and looks at it the next time
+
+    /// The channel of the conversion that was started last, kNobody behind release(); any other
+    /// is one of the task's.
+    static uint8_t selected() { return Ppi::read_a(); }
+
+    /// Starts a conversion of a channel. @pre selected() is kNobody or was the handler's
+    static void start(uint8_t channel) {
         Ppi::write_a(channel);
-        uint16_t result = kAdcAbsent;
-        if (settles()) {
-            Adc::start();
-            if (Adc::wait()) {
-                const uint8_t high = Adc::high();
-                result = static_cast<uint16_t>(high << 8 | Adc::low());
-            }
-        }
-        Ppi::write_a(before);
-        return result;
+        (void)Ppi::read_b();
+        (void)Ppi::read_b();
+        (void)Ppi::read_b();
+        Adc::start();
+    }
+    /// Bits 11 to 4 of its result; 0 when it has not ended. @pre 108 T have passed
+    [[nodiscard]] static uint8_t upper_bits() {
+        uint8_t bits = 0;
+        if (!Adc::busy()) bits = Adc::high();
+        return bits;
     }
 
 private:
