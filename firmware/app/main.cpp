@@ -79,6 +79,7 @@ volatile uint8_t& trap_faults() {
 [[gnu::noinline]] void set_fault(BoardFault fault) {
     main_faults() = bit_or(uint8_t{main_faults()}, static_cast<uint8_t>(fault));
 }
+/// Faults with which motors stay off.
 [[gnu::noinline]] uint8_t stop_bits() {
     return bit_or(bit_and(uint8_t{main_faults()}, kFaultsThatStop), uint8_t{trap_faults()});
 }
@@ -91,13 +92,13 @@ const Content* stored(uint8_t record) {
     return reinterpret_cast<const Content*>(add_wrap(content, widen_u16(record)));
 }
 
-/// All motors off, the mast's too.
+/// Drive, steering and mast without power.
 [[gnu::noinline]] void motors_off() {
     Parts::Motors::all_off();
     Parts::PpiA::clear_c<hal::rb85::kMastOnBit>();
 }
 
-/// @context  behind whatever gives power to a motor: a TRAP may have come in between
+/// Behind whatever gives power to a motor: a TRAP may have come before it.
 [[gnu::noinline]] void stop_if_faulty() {
     if (stop_bits() != 0) motors_off();
 }

@@ -1,31 +1,30 @@
 // analog_inputs.hpp - multiplexer, sample-and-hold and converter: counts of a channel.
 // Source       AD574A, DG406 and LF398 data sheets, see the page.
-// Depends on   hal/io.hpp (kAdcAbsent), drivers of converter and 82C55A.
-// Interrupts   task and a handler share the converter: the task converts with interrupts disabled,
-//              one conversion at a time; the handler leaves the multiplexer as it was.
+// Depends on   hal/io.hpp (kAdcAbsent), hal/board/rb85.hpp; drivers of converter and 82C55A.
+// Interrupts   task and a handler share the converter: the multiplexer's address tells whose it is.
 // Page         docs/chips/ad574a.md
 #pragma once
 
 #include <stdint.h>
 
+#include "hal/board/rb85.hpp"
 #include "hal/io.hpp"
 
 namespace hal {
 
-/// @tparam Bus  with enable_interrupts() and disable_interrupts()
 /// @tparam Adc  Ad574a
 /// @tparam Ppi  I82c55a: port A has the multiplexer's address, port B has STS
-template <class Bus, class Adc, class Ppi>
+template <class Adc, class Ppi>
 struct AnalogInputs {
     static constexpr uint8_t kConversions = 16;
 
-    /// At 0 V: selected while nobody needs the converter.
-    static constexpr uint8_t kNobody = 14;
+    /// Selected while nobody needs the converter: an input at 0 V.
+    static constexpr uint8_t kNobody = rb85::kMuxZero;
 
-    // -- Task: between claim() and release()
+    // -- The task, with its own channels between claim() and release()
 
-    /// From now on handlers leave the converter alone. One that is in the middle of a conversion
-    /// has lost it: 108 T later the converter is free.
+    /// From now on the handler leaves the converter alone. The conversion that it may have started
+    /// is lost; 35 us later the converter is free.
     static void claim() { Ppi::write_a(0); }
     static void release() { Ppi::write_a(kNobody); }
 
@@ -59,13 +58,15 @@ struct AnalogInputs {
         return false;
     }
 
-    // -- Handler: starts a conversion, and looks at it the next time
+    // -- A handler, with channels that the task has not: it starts a conversion and has its result
+    //    the next time, so it never waits
 
-    /// The channel of the conversion that was started last, kNobody behind release(); any other
-    /// is one of the task's.
+    /// A channel of the handler's: start() was the last who had the converter. kNobody: the task
+    /// was, and is done. A channel of the task's: it has it now.
     static uint8_t selected() { return Ppi::read_a(); }
 
-    /// Starts a conversion of a channel. @pre selected() is kNobody or was the handler's
+    /// Starts a conversion, 40 T from the multiplexer's address as in settles().
+    /// @pre  selected() is kNobody or a channel of the handler's
     static void start(uint8_t channel) {
         Ppi::write_a(channel);
         (void)Ppi::read_b();
@@ -73,7 +74,7 @@ struct AnalogInputs {
         (void)Ppi::read_b();
         Adc::start();
     }
-    /// Bits 11 to 4 of its result; 0 when it has not ended. @pre 108 T have passed
+    /// Bits 11 to 4 of its result; 0 when it has not ended.
     [[nodiscard]] static uint8_t upper_bits() {
         uint8_t bits = 0;
         if (!Adc::busy()) bits = Adc::high();

@@ -44,7 +44,7 @@ struct I82c55a {
     /// @ref  "Single Bit Set/Reset Feature"
     template <uint8_t kMask>
     static void put_c(bool level) {
-        command_c(kClearWord<kMask> | (level ? 1 : 0));
+        command_c(level ? kClearWord<kMask> | 1 : kClearWord<kMask>);
     }
     template <uint8_t kMask>
     static void set_c() {

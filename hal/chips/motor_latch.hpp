@@ -1,6 +1,6 @@
 // motor_latch.hpp - driver of the motor latches: duty and direction of drive and steering motors.
 // Depends on   hal/io.hpp (how many). Bus: docs/design/hal.md
-// Reset        RESET clears the latches, start-up the copies of the direction bits here.
+// Reset        RESET clears the latches, start-up the copy of the direction bits here.
 // Page         docs/chips/motor-latch.md
 #pragma once
 
