@@ -80,7 +80,7 @@ volatile uint8_t& trap_faults() {
     main_faults() = bit_or(uint8_t{main_faults()}, static_cast<uint8_t>(fault));
 }
 /// Faults with which motors stay off.
-[[gnu::noinline]] uint8_t stop_bits() {
+uint8_t stop_bits() {
     return bit_or(bit_and(uint8_t{main_faults()}, kFaultsThatStop), uint8_t{trap_faults()});
 }
 
