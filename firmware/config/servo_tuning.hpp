@@ -7,8 +7,8 @@
 
 namespace rover {
 
-/// At least so far from straight ahead, in 1/256 turn, no servo is sent: 39.4 degrees. What
-/// overshoots there is still away from the ends of the potentiometer.
+/// No servo is sent farther from straight ahead, in 1/256 turn: 39.4 degrees. What overshoots there
+/// is still away from the ends of its potentiometer.
 inline constexpr uint8_t kServoReachQ8Turn = 28;
 
 inline constexpr uint8_t kServoDeadbandCodes = 1;  ///< so near is there: within 0.7 degrees

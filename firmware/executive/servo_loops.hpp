@@ -65,24 +65,26 @@ void turn_mast(bool on, bool left) {
     Parts::PpiA::template set_c<hal::rb85::kMastOnBit>();
 }
 
-// The commands have the angles in the order of the multiplexer's inputs.
-static_assert(__builtin_offsetof(hal::Commands, mast_brad) ==
-              __builtin_offsetof(hal::Commands, steer_brad) +
-                  (kMastServo - kFirstServo) * sizeof(int16_t));
+/// The commanded angle of the servo at multiplexer input kFirstServo + place. The commands have
+/// them in the order of the inputs. Read once: the main line may write it meanwhile.
+inline int16_t commanded_brad(const hal::Commands& commands, uint8_t place) {
+    constexpr uint8_t kFirstPlace = __builtin_offsetof(hal::Commands, steer_brad) / 2;
+    static_assert(__builtin_offsetof(hal::Commands, mast_brad) / 2 ==
+                  kFirstPlace + kMastServo - kFirstServo);
+    return (reinterpret_cast<const volatile int16_t*>(&commands) + kFirstPlace)[place];
+}
 
 /// The servo whose potentiometer is selected gets its duty from the conversion that the last tick
 /// started, the next one its conversion: nothing is waited for. Which one it is the multiplexer
 /// knows; it is asked again and again, since IN is cheaper than to remember.
-/// @param commands  the main line may write them meanwhile
-/// @context  the tick
+/// @context  the tick   @cost  650 T
 template <class Parts>
 [[gnu::noinline]] void hold_servo(ServoLoops& servos, const hal::Commands& commands) {
     using Inputs = typename Parts::AnalogInputs;
     if (Inputs::selected() < kFirstServo) return;  // the main line's
     if (Inputs::selected() <= kMastServo) {
         const uint8_t place = sub_wrap(Inputs::selected(), kFirstServo);
-        const volatile int16_t* const angles_brad = commands.steer_brad;
-        const uint8_t wanted = servo_code(angles_brad[place]);
+        const uint8_t wanted = servo_code(commanded_brad(commands, place));
         const uint8_t measured = Inputs::upper_bits();
         const uint8_t duty = servo_duty(measured, wanted);
         const bool left = measured < wanted;
