@@ -63,13 +63,14 @@ struct RawInputs {
 
 inline constexpr uint8_t kTelemetryBytesMax = 160;
 
-/// What the controller asks of the vehicle, held until the next step.
+/// What the controller asks of the vehicle, held until the next step. The mast's angle is as far
+/// behind the steering angles as their AdcChannels are apart.
 struct Commands {
     int8_t drive_percent[kWheelCount] = {};  ///< [-100, 100] of full wheel speed, forward positive
     int16_t steer_brad[kSteerCount] = {};    ///< s16 brad (turn/2^16), left positive
-    int16_t mast_brad = 0;                   ///< s16 brad
     uint8_t laser_bits = 0;                  ///< bit i fires laser i
     uint8_t telemetry_size = 0;              ///< [0, kTelemetryBytesMax]
+    int16_t mast_brad = 0;                   ///< s16 brad, left positive
     uint8_t telemetry[kTelemetryBytesMax] = {};
 };
 

@@ -19,6 +19,7 @@
 #include "firmware/executive/controller.hpp"
 #include "firmware/executive/motor_commands.hpp"
 #include "firmware/executive/schedule.hpp"
+#include "firmware/executive/servo_loops.hpp"
 #include "firmware/link/calibration_frame.hpp"
 #include "firmware/link/frames.hpp"
 #include "hal/board/rb85_parts.hpp"
@@ -29,13 +30,6 @@ namespace {
 
 using Bus = hal::I8085;
 using Parts = hal::Rb85Parts<Bus>;
-
-/// For a converter that no handler uses: nothing has to be kept away while it converts.
-struct OpenBus : Bus {
-    static void enable_interrupts() {}
-    static void disable_interrupts() {}
-    static void let_interrupts_in() {}
-};
 
 // SIM: bit 3 sets the masks. RST 7.5 and 6.5 are always open, 5.5 while there is something to send.
 constexpr uint8_t kOpenAll = 0x08;
@@ -48,6 +42,7 @@ WheelCount wheels[hal::kWheelCount];
 ByteRing<64> received;
 alignas(256) PageRing to_send;
 uint8_t ticks_to_count;  // the tick's
+ServoLoops servos;
 volatile uint16_t receive_errors;
 volatile uint8_t trap_count;
 
@@ -84,8 +79,9 @@ volatile uint8_t& trap_faults() {
 [[gnu::noinline]] void set_fault(BoardFault fault) {
     main_faults() = bit_or(uint8_t{main_faults()}, static_cast<uint8_t>(fault));
 }
-bool drives_are_stopped() {
-    return bit_or(bit_and(uint8_t{main_faults()}, kFaultsThatStop), uint8_t{trap_faults()}) != 0;
+/// Faults with which motors stay off.
+uint8_t stop_bits() {
+    return bit_or(bit_and(uint8_t{main_faults()}, kFaultsThatStop), uint8_t{trap_faults()});
 }
 
 /// The content of a record. Here structs have no padding: their bytes are those of the page.
@@ -94,6 +90,17 @@ template <class Content>
 const Content* stored(uint8_t record) {
     const uint16_t content = hal::rb85::kCheckpointFirst + kRecordContent;
     return reinterpret_cast<const Content*>(add_wrap(content, widen_u16(record)));
+}
+
+/// Drive, steering and mast without power.
+[[gnu::noinline]] void motors_off() {
+    Parts::Motors::all_off();
+    Parts::PpiA::clear_c<hal::rb85::kMastOnBit>();
+}
+
+/// Behind whatever gives power to a motor: a TRAP may have come before it.
+[[gnu::noinline]] void stop_if_faulty() {
+    if (stop_bits() != 0) motors_off();
 }
 
 /// An edge for the watchdog.
@@ -134,7 +141,10 @@ I85_INTERRUPT(I85_RST_75) void on_tick() {
     Bus::enable_interrupts();
     rover_tick_count = add_wrap(uint16_t{rover_tick_count}, uint16_t{1});
     volatile uint8_t& quiet = battery_area()[battery::kQuietTicks];
-    if (quiet != 255) quiet = add_wrap(uint8_t{quiet}, uint8_t{1});
+    const uint8_t longer = add_wrap(uint8_t{quiet}, uint8_t{1});
+    if (longer != 0) quiet = longer;
+    if (stop_bits() == 0) hold_servo<Parts>(servos, commands);
+    stop_if_faulty();
     ticks_to_count = sub_wrap(ticks_to_count, uint8_t{1});
     if (ticks_to_count != 0) return;
     ticks_to_count = kTicksPerCount;
@@ -159,14 +169,13 @@ I85_INTERRUPT(I85_RST_65) void on_receive() {
 
 /// The transmitter takes a character. @pre there is one, or the interrupt is masked
 I85_INTERRUPT(I85_RST_55) void on_transmit() {
-    bool is_last = false;
-    Parts::Usart::write(to_send.pop(is_last));
-    if (is_last) Bus::sim(kMaskTransmit);
+    const bool was_last = to_send.pop([](uint8_t byte) { Parts::Usart::write(byte); });
+    if (was_last) Bus::sim(kMaskTransmit);
 }
 
 /// Undervoltage or bumper: motors off, latched until the next reset.
 I85_INTERRUPT(I85_TRAP) void on_trap() {
-    Parts::Motors::all_off();
+    motors_off();
     const bool undervoltage = bit_and(Parts::PpiA::read_b(), hal::rb85::kTrapCauseBit) != 0;
     const uint8_t cause = undervoltage ? kTrapUndervoltage : kTrapBumper;
     trap_faults() = bit_or(uint8_t{trap_faults()}, cause);
@@ -176,8 +185,8 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 // -- Boot ----------------------------------------------------------------------------------------
 
 [[gnu::noinline]] void start_parts() {
-    Parts::Motors::all_off();
     Parts::PpiA::set_mode<hal::rb85::kPpiAMode>();
+    motors_off();
     Parts::PpiB::set_mode<hal::rb85::kPpiBMode>();
     Parts::TimerA::start<hal::rb85::kBaudCounter, Parts::TimerA::Mode::square_wave>(
         hal::rb85::kBaudCount);
@@ -296,12 +305,14 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 }
 
 [[gnu::noinline]] void rover_acquire() {
+    Parts::AnalogInputs::claim();
     read_wheels(rover_tick_count, wheels, inputs);
     inputs.tach_present = Parts::Presence::wheels();
     inputs.detector_bits = Parts::PpiB::read_b();
     read_range<Parts>(inputs);
     read_link(received, inputs);
-    read_converter<hal::Rb85Parts<OpenBus>>(inputs, [] { set_fault(kFaultConverter); });
+    read_converter<Parts>(inputs, [] { set_fault(kFaultConverter); });
+    Parts::AnalogInputs::release();
 }
 
 [[gnu::noinline]] void rover_control() {
@@ -313,8 +324,11 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     DriveLatches latches;
     drive_latches(commands, latches);
     Parts::Motors::drive(latches.duty, latches.backward);
-    Parts::PpiA::write_c(bit_and(commands.laser_bits, hal::rb85::kLaserMask));
-    if (drives_are_stopped()) Parts::Motors::all_off();
+    const uint8_t lasers = bit_and(commands.laser_bits, hal::rb85::kLaserMask);
+    Bus::disable_interrupts();
+    Parts::PpiA::replace_c<hal::rb85::kLaserMask>(lasers);
+    Bus::enable_interrupts();
+    stop_if_faulty();
 }
 
 /// Is there room for so many bytes? Else a frame is lost.
@@ -428,7 +442,8 @@ void start_transmitter() {
 
 /// Motors off and no more edges: the watchdog resets, when what is queued has been sent.
 void wait_for_reset() {
-    Parts::Motors::all_off();
+    Parts::AnalogInputs::claim();
+    motors_off();
     for (;;) Bus::halt();
 }
 

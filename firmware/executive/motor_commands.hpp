@@ -1,6 +1,6 @@
-// motor_commands.hpp - Commands to the motor latches and lasers.
+// motor_commands.hpp - Commands to the latches of the drive motors.
 // Depends on   hal/io.hpp, core/arith.hpp; the board's parts as a template argument.
-// Not here     steering and mast: no loop holds them yet, their motors stay off.
+// Not here     steering and mast: servo_loops.hpp.
 // Design note  docs/design/executive.md     Tests  tests/firmware/executive/motor_commands_test.cpp
 #pragma once
 

@@ -88,16 +88,17 @@ struct PageRing {
         written = static_cast<uint8_t>(at);
     }
 
+    /// @param write  gets the oldest byte
+    /// @return   whether that was the last
     /// @pre      not empty
-    /// @return   by `is_last` whether it is empty now
     /// @context  the consumer alone
-    uint8_t pop(bool& is_last) {
+    template <class Write>
+    bool pop(Write write) {
         const volatile uint8_t* const place = next;
-        const uint8_t byte = *place;
+        write(*place);
         const auto index = static_cast<uint8_t>(reinterpret_cast<uintptr_t>(place) + 1);
         *reinterpret_cast<volatile uint8_t*>(&next) = index;  // little endian, here and there
-        is_last = index == written;
-        return byte;
+        return index == written;
     }
 };
 

@@ -26,7 +26,7 @@ struct Rb85Parts {
     using PpiA = I82c55a<Bus, rb85::kPpiA>;
     using PpiB = I82c55a<Bus, rb85::kPpiB>;
     using Adc = Ad574a<Bus, rb85::kAdc, rb85::kPpiA + rb85::kPpiPortB, rb85::kAdcBusyBit>;
-    using AnalogInputs = hal::AnalogInputs<Bus, Adc, PpiA>;
+    using AnalogInputs = hal::AnalogInputs<Adc, PpiA>;
     using Motors = MotorLatch<Bus, rb85::kMotorDrive>;
     using Range =
         RangeModule<PpiB, rb85::kRangeAckBit, rb85::kRangeStrobeBit, rb85::kRangeSelectBit>;

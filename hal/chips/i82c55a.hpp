@@ -33,6 +33,12 @@ struct I82c55a {
     static void write_b(uint8_t value) { Bus::template out<kPortB>(value); }
     static void write_c(uint8_t value) { Bus::template out<kPortC>(value); }
 
+    /// Some bits of port C, all outputs; the others keep their levels. @context interrupts disabled
+    template <uint8_t kMask>
+    static void replace_c(uint8_t value) {
+        write_c((read_c() & static_cast<uint8_t>(~kMask)) | (value & kMask));
+    }
+
     /// One bit of port C; the others keep their levels, also against an interrupt in between.
     /// @tparam kMask  the bit's mask, one of the eight powers of two
     /// @ref  "Single Bit Set/Reset Feature"

@@ -1,6 +1,6 @@
 // motor_latch.hpp - driver of the motor latches: duty and direction of drive and steering motors.
 // Depends on   hal/io.hpp (how many). Bus: docs/design/hal.md
-// Reset        RESET clears the latches, start-up the copies of the direction bits here.
+// Reset        RESET clears the latches, start-up the copy of the direction bits here.
 // Page         docs/chips/motor-latch.md
 #pragma once
 
@@ -36,33 +36,15 @@ struct MotorLatch {
         Bus::template out<kPort + 5>(duty[5]);
     }
 
-    /// Sets the steering motors; as drive().
+    /// Sets the steering motors.
     /// @param right  bit s: motor s turns to the right
+    /// @pre  a motor whose direction changes has duty 0, so no bridge reverses under power
     static void steer(const uint8_t (&duty)[kSteerCount], uint8_t right) {
-        if (right != right_) {
-            stop_steer();
-            Bus::template out<kSteerSign>(right);
-            right_ = right;
-        }
         Bus::template out<kSteer>(duty[0]);
         Bus::template out<kSteer + 1>(duty[1]);
         Bus::template out<kSteer + 2>(duty[2]);
         Bus::template out<kSteer + 3>(duty[3]);
-    }
-
-    /// Sets one steering motor; the others stay as they are.
-    template <uint8_t kMotor>
-    static void steer_one(uint8_t duty, bool right) {
-        static_assert(kMotor < kSteerCount);
-        constexpr uint8_t kBit = 1U << kMotor;
-        const uint8_t others = right_ & static_cast<uint8_t>(~kBit);
-        const uint8_t wanted = right ? others | kBit : others;
-        if (wanted != right_) {
-            Bus::template out<kSteer + kMotor>(0);
-            Bus::template out<kSteerSign>(wanted);
-            right_ = wanted;
-        }
-        Bus::template out<kSteer + kMotor>(duty);
+        Bus::template out<kSteerSign>(right);
     }
 
     /// All ten motors without power, all directions as after RESET.
@@ -72,7 +54,6 @@ struct MotorLatch {
         Bus::template out<kDriveSign>(0);
         Bus::template out<kSteerSign>(0);
         backward_ = 0;
-        right_ = 0;
     }
 
 private:
@@ -91,8 +72,7 @@ private:
         Bus::template out<kSteer + 3>(0);
     }
 
-    static inline volatile uint8_t backward_ = 0;  ///< direction registers: they cannot be read
-    static inline volatile uint8_t right_ = 0;
+    static inline volatile uint8_t backward_ = 0;  ///< the direction register: it cannot be read
 };
 
 }  // namespace hal

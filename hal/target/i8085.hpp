@@ -27,12 +27,6 @@ struct I8085 {
     /// Takes effect behind the next instruction.
     static void enable_interrupts() { __i85_ei(); }
     static void disable_interrupts() { __i85_di(); }
-    /// Between two stretches with interrupts disabled: those that wait are served here. @cost 12 T
-    static void let_interrupts_in() {
-        __i85_ei();
-        __i85_nop();
-        __i85_di();
-    }
     /// Sleeps until an interrupt.
     static void halt() { __i85_hlt(); }
 };

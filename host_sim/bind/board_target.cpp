@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "firmware/config/board_inputs.hpp"
 #include "firmware/link/telemetry.hpp"
 #include "hal/board/rb85.hpp"
 
@@ -123,10 +124,11 @@ void BoardTarget::run_to_acquire(uint64_t limit_t) {
 // -- Inputs
 // --------------------------------------------------------------------------------------
 
-/// What is there whenever the board looks.
+/// What is there whenever the board looks. Potentiometers of steering and mast stay unplugged: a
+/// loop around a recorded angle would turn its motor for ever.
 void BoardTarget::set_levels(const hal::RawInputs& inputs) {
     const uint64_t t = board_.state.cpu.t;
-    for (uint8_t channel = 0; channel < hal::kAdcChannelCount; ++channel) {
+    for (uint8_t channel = 0; channel < rover::kSampledChannelCount; ++channel) {
         const uint16_t sum = inputs.adc_q4_count[channel];
         if (sum == sums_[channel]) continue;
         sums_[channel] = sum;
@@ -258,8 +260,8 @@ void BoardTarget::await_frames(std::vector<LogStep>& steps, bool hold) {
 // -- Outputs
 // -------------------------------------------------------------------------------------
 
-/// Motors and lasers as they are when the step is over. No loop holds steering or mast yet, so
-/// their motors are off and their angles 0; one that runs shows as its duty.
+/// Motors and lasers as they are when the step is over. Without potentiometers the motors of
+/// steering and mast are off and their angles 0; one that runs shows as its duty.
 void BoardTarget::read_outputs(LogStep& step) const {
     hal::Commands& commands = step.commands.emplace();
     const chips::MotorLatch& motors = board_.state.motors;

@@ -66,11 +66,6 @@ struct SimBus {
     static void sim(uint8_t value) { SimBoard::current().execute(0x30, 0, value); }
     static void enable_interrupts() { SimBoard::current().execute(0xFB, 0, 0); }
     static void disable_interrupts() { SimBoard::current().execute(0xF3, 0, 0); }
-    static void let_interrupts_in() {
-        enable_interrupts();
-        SimBoard::current().execute(0x00, 0, 0);
-        disable_interrupts();
-    }
     static void halt() { SimBoard::current().halt(); }
 };
 

@@ -28,7 +28,7 @@ struct RecordingBus {
         /// Values that IN `port` yields one behind the other; the last one for ever.
         void in(uint8_t port, std::initializer_list<uint8_t> values) { answers_[port] = values; }
         /// Everything since the last call, separated by blanks: "09=40" is OUT, "<21" is IN,
-        /// "SIM=C0", "EI", "DI", "LET" (interrupts in), "HLT", "RIM".
+        /// "SIM=C0", "EI", "DI", "HLT", "RIM".
         std::string accesses() {
             std::string all;
             all.swap(accesses_);
@@ -75,7 +75,6 @@ struct RecordingBus {
     static void sim(uint8_t value) { script().add("SIM=%02X", value); }
     static void enable_interrupts() { script().add("EI"); }
     static void disable_interrupts() { script().add("DI"); }
-    static void let_interrupts_in() { script().add("LET"); }
     static void halt() { script().add("HLT"); }
 
 private:

@@ -142,9 +142,9 @@ Record record_of(const hal::Commands& commands) {
     Record record;
     record.field("drive_percent", commands.drive_percent);
     record.field("steer_brad", commands.steer_brad);
-    record.field("mast_brad", commands.mast_brad);
     record.field("laser_bits", commands.laser_bits);
     record.field("telemetry_size", commands.telemetry_size);
+    record.field("mast_brad", commands.mast_brad);
     record.field("telemetry", commands.telemetry);
     return record;
 }

@@ -75,10 +75,11 @@ TEST(PageRing, IsAQueueOf255BytesAtEveryPhase) {
             ring.push(byte);
             model.push_back(byte);
         } else if (!fill && !ring.empty()) {
-            bool is_last = false;
-            ASSERT_EQ(ring.pop(is_last), model.front());
+            std::uint8_t byte = 0;
+            const bool was_last = ring.pop([&byte](std::uint8_t oldest) { byte = oldest; });
+            ASSERT_EQ(byte, model.front());
             model.pop_front();
-            ASSERT_EQ(is_last, model.empty());
+            ASSERT_EQ(was_last, model.empty());
         }
     }
 }
@@ -94,9 +95,10 @@ TEST(PageRing, ManyBytesAreAsManySingleOnes) {
         ring.push_all(bytes.data(), static_cast<std::uint8_t>(count));
         ASSERT_EQ(ring.room(), 255 - count);
         for (unsigned left = count; left != 0; --left) {
-            bool is_last = false;
-            ASSERT_EQ(ring.pop(is_last), next_out++);
-            ASSERT_EQ(is_last, left == 1);
+            std::uint8_t byte = 0;
+            const bool was_last = ring.pop([&byte](std::uint8_t oldest) { byte = oldest; });
+            ASSERT_EQ(byte, next_out++);
+            ASSERT_EQ(was_last, left == 1);
         }
         ASSERT_TRUE(ring.empty());
     }

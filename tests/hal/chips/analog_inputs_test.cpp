@@ -1,5 +1,5 @@
-// analog_inputs_test.cpp - sums and single conversions of a channel. Accesses by hand from the
-// docstrings and docs/chips/ad574a.md; values and faults on the models of the analogue chain.
+// analog_inputs_test.cpp - sums of a channel, and conversions of a handler. Accesses by hand from
+// the docstrings and docs/chips/ad574a.md; values and faults on the models of the analogue chain.
 #include "hal/chips/analog_inputs.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ uint16_t sum(uint8_t channel) {
     return result;
 }
 
-TEST(AnalogInputsAccesses, SumSelectsOnceAndLetsInterruptsInBetweenConversions) {
+TEST(AnalogInputsAccesses, SumSelectsOnceAndReadsSixteenConversions) {
     Script bus;
     bus.in(0x21, {0x00});
     bus.in(0x28, {0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x81, 0x81, 0x81, 0x81, 0x81,
@@ -39,50 +39,52 @@ TEST(AnalogInputsAccesses, SumSelectsOnceAndLetsInterruptsInBetweenConversions) 
                   0xE0, 0xF0, 0x00});
     // 16 * (8 * 80h + 8 * 81h) + 1 + 2 + ... + 15
     EXPECT_EQ(sum<Recorded>(5), 16 * (8 * 0x80 + 8 * 0x81) + 120);
-    std::string expected = "20=05 " + kSettle + " DI 28=00";
+    std::string expected = "20=05 " + kSettle + " 28=00";
     const char* lows[] = {"10", "20", "30", "40", "50", "60", "70", "80",
                           "90", "A0", "B0", "C0", "D0", "E0", "F0"};
     for (const char* low : lows) {  // what is written to start does not matter: the byte at hand
-        expected += std::string(" <21 <28 <29 LET 28=") + low + " <21 <21";
+        expected += std::string(" <21 <28 <29 28=") + low + " <21 <21";
     }
-    EXPECT_EQ(bus.accesses(), expected + " <21 <28 <29 EI");
+    EXPECT_EQ(bus.accesses(), expected + " <21 <28 <29");
 }
 
-TEST(AnalogInputsAccesses, SumOfADeadConverterIsAbsentAndInterruptsAreEnabled) {
+TEST(AnalogInputsAccesses, SumOfADeadConverterIsAbsent) {
     Script bus;
     bus.in(0x21, {0x40, 0x40, 0x00, 0x40});
     EXPECT_EQ(sum<Recorded>(0), hal::kAdcAbsent);
-    std::string expected = "20=00 " + kSettle + " DI 28=00";
+    std::string expected = "20=00 " + kSettle + " 28=00";
     for (unsigned i = 0; i < Recorded::Adc::kPollsMax; ++i) expected += " <21";
-    EXPECT_EQ(bus.accesses(), expected + " EI");
+    EXPECT_EQ(bus.accesses(), expected);
 }
 
-TEST(AnalogInputsAccesses, ConvertPutsTheMultiplexerBackAndLeavesInterruptsAlone) {
+TEST(AnalogInputsAccesses, NoSumIsStartedWhileTheConverterIsBusy) {
     Script bus;
-    bus.in(0x20, {0x0B});
-    bus.in(0x21, {0x00, 0x00, 0x00, 0x40, 0x40, 0x00});
-    bus.in(0x28, {0xAB});
-    bus.in(0x29, {0xC0});
-    EXPECT_EQ(Recorded::AnalogInputs::convert(6), 0xABC0);
-    EXPECT_EQ(bus.accesses(), "<20 20=06 " + kSettle + " 28=00 <21 <21 <21 <28 <29 20=0B");
-}
-
-TEST(AnalogInputsAccesses, ConvertOfADeadConverterIsAbsentAndPutsTheMultiplexerBack) {
-    Script bus;
-    bus.in(0x20, {0x0B});
-    bus.in(0x21, {0x00, 0x00, 0x00, 0x40});
-    EXPECT_EQ(Recorded::AnalogInputs::convert(6), hal::kAdcAbsent);
-    EXPECT_TRUE(bus.accesses().ends_with(" <21 20=0B"));
-}
-
-TEST(AnalogInputsAccesses, NothingIsStartedWhileTheConverterIsBusy) {
-    Script bus;
-    bus.in(0x20, {0x0B});
     bus.in(0x21, {0x00, 0x00, 0x40});
     EXPECT_EQ(sum<Recorded>(6), hal::kAdcAbsent);
     EXPECT_EQ(bus.accesses(), "20=06 <21 <21 <21");
-    EXPECT_EQ(Recorded::AnalogInputs::convert(6), hal::kAdcAbsent);
-    EXPECT_EQ(bus.accesses(), "<20 20=06 <21 <21 <21 20=0B");
+}
+
+TEST(AnalogInputsAccesses, AHandlerStartsAndLooksTheNextTime) {
+    Script bus;
+    using Inputs = Recorded::AnalogInputs;
+    bus.in(0x20, {0x07});
+    bus.in(0x21, {0x40});
+    bus.in(0x28, {0xAB});
+    Inputs::start(7);
+    EXPECT_EQ(bus.accesses(), "20=07 " + kSettle + " 28=00");
+    EXPECT_EQ(Inputs::selected(), 7);
+    EXPECT_EQ(Inputs::upper_bits(), 0);  // no end, so nothing is read
+    EXPECT_EQ(bus.accesses(), "<20 <21");
+    bus.in(0x21, {0x00});
+    EXPECT_EQ(Inputs::upper_bits(), 0xAB);
+    EXPECT_EQ(bus.accesses(), "<21 <28");
+}
+
+TEST(AnalogInputsAccesses, TheMultiplexerTellsWhoseTheConverterIs) {
+    Script bus;
+    Recorded::AnalogInputs::claim();
+    Recorded::AnalogInputs::release();
+    EXPECT_EQ(bus.accesses(), "20=00 20=0E");
 }
 
 class AnalogInputsOnTheModel : public testing::Test {
@@ -104,39 +106,62 @@ protected:
 };
 
 TEST_F(AnalogInputsOnTheModel, EveryChannelIsItsSumExactly) {
+    using Inputs = Simulated::AnalogInputs;
     for (uint8_t channel = 0; channel < 16; ++channel) {
         set(channel, static_cast<uint16_t>(channel * 273));  // 0 to 4095
     }
     for (uint8_t channel = 0; channel < 16; ++channel) {
         EXPECT_EQ(sum<Simulated>(channel), channel * 273 * 16);
-        EXPECT_EQ(Simulated::AnalogInputs::convert(15 - channel), (15 - channel) * 273 * 16);
+        board.elapse(40);
+        Inputs::start(15 - channel);
+        board.elapse(108);
+        EXPECT_EQ(Inputs::upper_bits(), (15 - channel) * 273 / 16);
+        board.elapse(40);
     }
     EXPECT_EQ(board.state.analog.adc.conversion_count, 16U * 17U);
     expect_no_misuse();
 }
 
-// A handler's conversions, at every place where interrupts are let in, do not change the sum.
-TEST_F(AnalogInputsOnTheModel, AHandlerMayConvertBetweenConversions) {
+// A handler comes at every place of the task's turn: the sums are right, and so is each of its own
+// conversions that it finds.
+TEST_F(AnalogInputsOnTheModel, TaskAndHandlerKeepOutOfEachOthersWay) {
+    using Inputs = Simulated::AnalogInputs;
     set(2, 1000);
     set(9, 3777);
-    unsigned handled = 0;
+    unsigned found = 0;
+    unsigned kept_out = 0;
+    unsigned begun = 0;
     board.handler = [&](host_sim::Interrupt) {
-        EXPECT_EQ(Simulated::AnalogInputs::convert(9), 3777 * 16);
+        const uint8_t selected = Inputs::selected();
+        if (selected == 2 || selected == 0) {
+            ++kept_out;
+            return;
+        }
+        if (selected == 9) {
+            ASSERT_EQ(Inputs::upper_bits(), 3777 / 16);
+            ++found;
+        } else {
+            ASSERT_EQ(selected, Inputs::kNobody);
+            ++begun;
+        }
+        Inputs::start(9);
         board.elapse(44);  // POP of four pairs, EI and RET: the way out of a handler
-        ++handled;
     };
     using Timer = Simulated::TimerA;
     SimBus::sim(0x1B);
     SimBus::enable_interrupts();
-    unsigned before = 0;
-    unsigned most = 0;
+    Inputs::release();
     for (uint16_t period = 1500; period < 2600; period += 7) {
         Timer::start<0, Timer::Mode::rate_generator>(period);
-        EXPECT_EQ(sum<Simulated>(2), 1000 * 16) << period;
-        most = std::max(most, handled - before);
-        before = handled;
+        Inputs::claim();
+        board.elapse(200);
+        ASSERT_EQ(sum<Simulated>(2), 1000 * 16) << period;
+        Inputs::release();
+        for (unsigned i = 0; i < 500; ++i) (void)SimBus::in<0x25>();
     }
-    EXPECT_GT(handled, 150U);
+    EXPECT_GT(found, 150U);
+    EXPECT_GT(kept_out, 150U);
+    EXPECT_GT(begun, 150U);
     expect_no_misuse();
 }
 
@@ -150,13 +175,11 @@ TEST_F(AnalogInputsOnTheModel, ASlowConverterGivesNoChannelTheValueOfAnother) {
         unsigned absent = 0;
         for (uint8_t channel = 0; channel < 16; ++channel) {
             const uint16_t all = sum<Simulated>(channel);
-            const uint16_t one = Simulated::AnalogInputs::convert(channel ^ 1);
             absent += all == hal::kAdcAbsent ? 1U : 0U;
             const auto is = [](uint16_t value, int count) {
                 return value == hal::kAdcAbsent || value == count * 16;
             };
             ASSERT_TRUE(is(all, channel * 273)) << conversion_t << ": " << all;
-            ASSERT_TRUE(is(one, (channel ^ 1) * 273)) << conversion_t << ": " << one;
         }
         ASSERT_EQ(absent, conversion_t <= 9 * 20 ? 0U : 16U) << conversion_t;
         board.elapse(1000);
@@ -170,13 +193,11 @@ TEST_F(AnalogInputsOnTheModel, AConverterThatNeverEndsIsAbsentUntilItWorksAgain)
     const uint64_t good_t = board.state.analog.adc.conversion12_t;
     board.state.analog.adc.conversion12_t = 100'000'000;
     EXPECT_EQ(sum<Simulated>(3), hal::kAdcAbsent);
-    EXPECT_EQ(Simulated::AnalogInputs::convert(3), hal::kAdcAbsent);
-    EXPECT_TRUE(board.state.cpu.interrupt_enable);
+    EXPECT_EQ(Simulated::AnalogInputs::upper_bits(), 0);
     board.state.analog.adc.conversion12_t = good_t;
     board.state.analog.adc.duration_t = 0;
     board.elapse(1000);
     EXPECT_EQ(sum<Simulated>(3), 2000 * 16);
-    EXPECT_EQ(Simulated::AnalogInputs::convert(3), 2000 * 16);
 }
 
 }  // namespace

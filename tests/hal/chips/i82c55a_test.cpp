@@ -43,6 +43,13 @@ TEST(I82c55aAccesses, BitsOfPortCAreNumbered) {
     EXPECT_EQ(bus.accesses(), "23=01 23=00 23=07 23=0C 23=0F 23=0E");
 }
 
+TEST(I82c55aAccesses, SomeBitsOfPortCAreReplaced) {
+    Script bus;
+    bus.in(0x22, {0xA6});
+    Recorded::PpiA::replace_c<0x0F>(0x79);
+    EXPECT_EQ(bus.accesses(), "<22 22=A9");
+}
+
 TEST(I82c55aOnTheModel, BitsOfPortCLeaveTheOthers) {
     SimBoard board;
     using Ppi = Simulated::PpiA;
@@ -56,6 +63,8 @@ TEST(I82c55aOnTheModel, BitsOfPortCLeaveTheOthers) {
     EXPECT_EQ(part.port_level(Port::c), 0x1B);
     Ppi::set_c<0x80>();
     EXPECT_EQ(Ppi::read_c(), 0x9B);
+    Ppi::replace_c<0x0F>(0x04);
+    EXPECT_EQ(part.port_level(Port::c), 0x94);
     EXPECT_EQ(part.input_write_count, 0U);
 }
 

@@ -37,18 +37,12 @@ TEST(MotorLatchDriver, NewDirectionComesBetweenZeroAndDuty) {
     EXPECT_EQ(bus.accesses(), "30=01 31=02 32=03 33=04 34=05 35=06");
 }
 
-TEST(MotorLatchDriver, SteeringLikewise) {
+TEST(MotorLatchDriver, SteeringIsFourDutiesThenDirections) {
     hal_test::Script bus;
     Recorded<3>::steer(kSteerDuty, 0);
-    EXPECT_EQ(bus.accesses(), "36=07 37=08 38=09 39=0A");
+    EXPECT_EQ(bus.accesses(), "36=07 37=08 38=09 39=0A 3B=00");
     Recorded<3>::steer(kSteerDuty, 0x0A);
-    EXPECT_EQ(bus.accesses(), "36=00 37=00 38=00 39=00 3B=0A 36=07 37=08 38=09 39=0A");
-    Recorded<3>::steer_one<2>(99, true);
-    EXPECT_EQ(bus.accesses(), "38=00 3B=0E 38=63");
-    Recorded<3>::steer_one<2>(98, true);
-    EXPECT_EQ(bus.accesses(), "38=62");
-    Recorded<3>::steer_one<3>(97, false);
-    EXPECT_EQ(bus.accesses(), "39=00 3B=06 39=61");
+    EXPECT_EQ(bus.accesses(), "36=07 37=08 38=09 39=0A 3B=0A");
 }
 
 TEST(MotorLatchDriver, AllOffIsTheStateAfterReset) {
@@ -71,26 +65,30 @@ TEST(MotorLatchDriver, NeverReversesUnderPower) {
     const auto byte = [&random] { return static_cast<uint8_t>(random()); };
     SimBoard board;
     using Motors = Simulated<5>;
+    uint8_t right = 0;
     for (unsigned i = 0; i < 2000; ++i) {
         const uint8_t duty[6] = {byte(), byte(), byte(), byte(), byte(), byte()};
         const uint8_t backward = byte() & 0x3F;
         Motors::drive(duty, backward);
-        const uint8_t steer[4] = {byte(), byte(), byte(), byte()};
-        const uint8_t right = byte() & 0x0F;
+        uint8_t steer[4] = {byte(), byte(), byte(), byte()};
+        const uint8_t before = right;
+        right = byte() & 0x0F;
+        for (unsigned motor = 0; motor < 4; ++motor) {
+            if (((before ^ right) >> motor & 1) != 0) steer[motor] = 0;  // as steer() demands
+        }
         Motors::steer(steer, right);
-        const uint8_t one = byte();
-        const bool one_right = (byte() & 1) != 0;
-        Motors::steer_one<1>(one, one_right);
         for (unsigned motor = 0; motor < 6; ++motor) {
             const int sign = (backward >> motor & 1) != 0 ? -1 : 1;
             ASSERT_EQ(board.state.motors.duty(motor), sign * duty[motor]) << "seed " << kSeed;
         }
         for (unsigned motor = 0; motor < 4; ++motor) {
-            const bool is_right = motor == 1 ? one_right : (right >> motor & 1) != 0;
-            const int wanted = motor == 1 ? one : steer[motor];
-            ASSERT_EQ(board.state.motors.duty(6 + motor), is_right ? -wanted : wanted);
+            const int sign = (right >> motor & 1) != 0 ? -1 : 1;
+            ASSERT_EQ(board.state.motors.duty(6 + motor), sign * steer[motor]);
         }
-        if (i % 100 == 0) Motors::all_off();
+        if (i % 100 == 0) {
+            Motors::all_off();
+            right = 0;
+        }
     }
     EXPECT_EQ(board.state.watchdog.fired_count, 0U);
     EXPECT_EQ(board.state.motors.reversal_count, 0U);

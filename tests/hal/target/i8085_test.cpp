@@ -29,15 +29,25 @@ const toolchain::assembly::Program& program() {
         toolchain::driver::Request made;
         made.sources = {{.path = root + "/tests/hal/target/parts_program.cpp"}};
         made.front_end = {"-I" + root};
-        made.keep = {"wish",  "argument", "duties",         "signs", "result",
-                     "sums",  "pulses",   "frame",          "servo", "servo_result",
-                     "ticks", "received", "received_status"};
+        made.keep = {"wish",  "argument", "duties",          "signs",         "result",
+                     "sums",  "pulses",   "frame",           "servo",         "servo_result",
+                     "ticks", "received", "received_status", "servo_results", "channels"};
         return toolchain::driver::compile_program(made).program;
     }();
     return compiled;
 }
 
-enum Wish : uint8_t { sums = 1, convert, pulses, range, drive, off, wheels, serial, reset_usart };
+enum Wish : uint8_t {
+    sums = 1,
+    servo_turn,
+    pulses,
+    range,
+    drive,
+    off,
+    wheels,
+    serial,
+    reset_usart
+};
 
 class PartsOnTheBoard : public testing::Test {
 protected:
@@ -141,7 +151,7 @@ protected:
     std::map<std::string, uint64_t> cost_t;
 };
 
-// 16 conversions of 172 T, and select, settle and the sum itself.
+// 16 conversions of 162 T, and select, settle and the sum itself.
 TEST_F(PartsOnTheBoard, SumsAreExactAndFast) {
     for (uint8_t channel = 0; channel < 16; ++channel) {
         sensor(channel, static_cast<uint16_t>(channel * 273));
@@ -156,56 +166,58 @@ TEST_F(PartsOnTheBoard, SumsAreExactAndFast) {
     EXPECT_LE(cost_t["sum_of_16"], 3000U);
 }
 
-// The tick converts another channel, or the same one, ever elsewhere in the sums: its period
-// changes from run to run.
-TEST_F(PartsOnTheBoard, TheTickMayConvertDuringTheSums) {
+// The tick wants to convert a channel of its own, ever elsewhere in the sums: its period changes
+// from run to run.
+TEST_F(PartsOnTheBoard, TheTickKeepsOutOfTheSumsAndHasItsOwn) {
     for (uint8_t channel = 0; channel < 16; ++channel) {
         sensor(channel, static_cast<uint16_t>(4095 - channel * 111));
     }
-    set("servo", 15);
+    set("channels", 8);
+    run(sums);
     const uint16_t before = word("ticks");
-    for (unsigned i = 0; i < 100; ++i) {
-        set("servo", static_cast<uint8_t>(i % 16));
-        const unsigned period = 2000 + 37 * i;
+    uint16_t results = word("servo_results");
+    for (unsigned i = 0; i < 200; ++i) {
+        const unsigned servo = 8 + i % 6;
+        set("servo", static_cast<uint8_t>(servo));
+        const unsigned period = 2000 + 37 * (i % 100);
         board.state.timers[0].write(0, static_cast<uint8_t>(period), board.state.cpu.t);
         board.state.timers[0].write(0, static_cast<uint8_t>(period >> 8), board.state.cpu.t);
         board.state.event_t = 0;
         run(sums);
-        for (unsigned channel = 0; channel < 16; ++channel) {
+        for (unsigned channel = 0; channel < 8; ++channel) {
             ASSERT_EQ(word("sums", channel), (4095 - channel * 111) * 16) << i << ": " << channel;
         }
-        ASSERT_EQ(word("servo_result"), (4095 - i % 16 * 111) * 16) << i;
+        board.run(board.state.cpu.t + 13'000);  // two ticks and more
+        ASSERT_EQ(byte("servo_result"), (4095 - servo * 111) / 16) << i;
+        ASSERT_NE(word("servo_results"), results) << i;
+        results = word("servo_results");
     }
     EXPECT_GT(word("ticks") - before, 1000);
 }
 
-TEST_F(PartsOnTheBoard, OneConversion) {
-    cost_t["convert"] = 0;
-    sensor(7, 1234);
-    set("argument", 7);
-    run(convert);
-    EXPECT_EQ(word("result"), 1234 * 16);
-    EXPECT_LE(cost_t["convert"], 350U);
-}
-
 TEST_F(PartsOnTheBoard, ADeadConverterIsAbsent) {
     auto& chain = board.state.analog;
-    const auto working = chain;
     chain.adc.conversion12_t = 1'000'000'000;
     cost_t["sum_of_16"] = 0;
-    cost_t["convert"] = 0;
     run(sums);
     for (unsigned channel = 0; channel < 16; ++channel) {
         EXPECT_EQ(word("sums", channel), hal::kAdcAbsent);
     }
-    chain = working;
-    chain.adc.conversion12_t = 1'000'000'000;
-    set("argument", 3);
-    run(convert);
-    EXPECT_EQ(word("result"), hal::kAdcAbsent);
     // The bound is at least twice a conversion and not more than four times.
-    EXPECT_GE(cost_t["convert"], 216U);
-    EXPECT_LE(cost_t["convert"], 600U);
+    EXPECT_GE(cost_t["sum_of_16"], 216U);
+    EXPECT_LE(cost_t["sum_of_16"], 600U);
+}
+
+TEST_F(PartsOnTheBoard, AConversionFromTurnToTurn) {
+    cost_t["servo_turn"] = 0;
+    sensor(9, 3777);
+    set("channels", 8);
+    run(sums);
+    set("servo", 9);
+    run(servo_turn);
+    run(servo_turn);
+    EXPECT_EQ(byte("servo_result"), 3777 / 16);
+    EXPECT_LE(cost_t["servo_turn"], 250U);
 }
 
 TEST_F(PartsOnTheBoard, PulsesOfSixWheels) {

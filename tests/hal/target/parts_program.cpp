@@ -16,8 +16,10 @@ uint16_t result;
 uint16_t sums[16];
 uint16_t pulses[6];
 hal::RangeFrame frame;
-volatile uint8_t servo;  // channel that the tick converts
-volatile uint16_t servo_result;
+uint8_t channels;        // that the sums take: the first ones
+volatile uint8_t servo;  // channel that the tick converts, behind those of the sums; 0: none
+volatile uint8_t servo_result;
+volatile uint16_t servo_results;
 volatile uint16_t ticks;
 uint8_t received;
 volatile uint8_t received_status;
@@ -45,8 +47,14 @@ volatile uint8_t received_status;
     (void)Parts::AnalogInputs::sum_of_16(channel, sum);
     return sum;
 }
-[[gnu::noinline]] uint16_t convert(uint8_t channel) {
-    return Parts::AnalogInputs::convert(channel);
+[[gnu::noinline]] void servo_turn() {
+    const uint8_t selected = Parts::AnalogInputs::selected();
+    if (selected < channels) return;
+    if (selected == servo) {
+        servo_result = Parts::AnalogInputs::upper_bits();
+        servo_results = servo_results + 1;
+    }
+    Parts::AnalogInputs::start(servo);
 }
 [[gnu::noinline]] void read_pulses() {
     Parts::TimerB::latch_pulses();
@@ -66,6 +74,8 @@ volatile uint8_t received_status;
 }
 [[gnu::noinline]] void steer() {
     const uint8_t steering[4] = {duties[0], duties[1], duties[2], duties[3]};
+    const uint8_t none[4] = {};
+    Parts::Motors::steer(none, signs);  // motors turn round without power
     Parts::Motors::steer(steering, signs);
 }
 [[gnu::noinline]] void all_off() {
@@ -80,11 +90,11 @@ volatile uint8_t received_status;
 
 I85_INTERRUPT(I85_RST_75) void tick() {
     ticks = ticks + 1;
-    if (servo != 0xFF) servo_result = convert(servo);
+    if (servo != 0) servo_turn();
 }
 
 int main() {
-    servo = 0xFF;
+    channels = 16;
     start_ports();
     start_timers();
     usart_reset();
@@ -94,13 +104,11 @@ int main() {
     for (;;) {
         switch (wish) {
             case 1:
-                for (uint8_t channel = 0; channel < 16; ++channel)
+                Parts::AnalogInputs::claim();
+                read_pulses();  // the tick's conversion ends meanwhile
+                for (uint8_t channel = 0; channel < channels; ++channel)
                     sums[channel] = sum_of_16(channel);
-                break;
-            case 2:
-                hal::I8085::disable_interrupts();
-                result = convert(argument);
-                hal::I8085::enable_interrupts();
+                Parts::AnalogInputs::release();
                 break;
             case 3:
                 read_pulses();
@@ -111,6 +119,9 @@ int main() {
             case 5:
                 drive();
                 steer();
+                break;
+            case 2:
+                servo_turn();
                 break;
             case 6:
                 all_off();
