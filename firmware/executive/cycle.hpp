@@ -174,8 +174,7 @@ constexpr int16_t forward_odometer(Controller& controller, int16_t odometer_q6_b
     map_grid_step(controller.map, input);
     if (motion != CycleMotion::moved) {
         watch_cycle(controller.stuck, inputs);
-        const bool disagree =
-            tachometers_disagree(controller.odometer, inputs.tach_present, controller.calibration);
+        const bool disagree = tachometers_disagree(controller.odometer, controller.calibration);
         controller.sensor_faults = disagree ? uint16_t{kFaultTachometer} : uint16_t{0};
     }
     estimates.cycle_count = add_wrap(estimates.cycle_count, uint16_t{1});
