@@ -34,17 +34,19 @@ static_assert(vehicle::kRockerQ6Bin == 3 * vehicle::kBogieArmQ6Bin);
 constexpr int16_t arms_q14(int16_t rocker_q14, int16_t bogie_q14) {
     return add_wrap(rocker_q14, halve_floor(add_wrap(rocker_q14, bogie_q14)));
 }
-/// Twice a bogie's arm times a ratio, s16 Q4 mm, rounded half up.
-constexpr int16_t arms_q4_mm(int16_t arms_q14) {
+/// Height of a contact by the sines of rocker and bogie: twice a bogie's arm times the ratio above,
+/// s16 Q4 mm, rounded half up.
+[[gnu::noinline]] constexpr int16_t arms_q4_mm(int16_t rocker_q14, int16_t bogie_q14) {
     static_assert(2ul * vehicle::kBogieArmQ4Mm * 512 == 125ul * 16384);
-    const int16_t twice = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{125}, arms_q14)));
-    return halve_floor(add_wrap(twice, int16_t{1}));
+    const int32_t twice_q8 = mul_wide(uint8_t{125}, arms_q14(rocker_q14, bogie_q14));
+    return halve_floor(add_wrap(narrow_wrap_s16(shift_floor<8>(twice_q8)), int16_t{1}));
 }
 /// The same in 1/64 bin; what lies behind counts as 0.
-constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
+[[gnu::noinline]] constexpr uint16_t arms_q6_bin(int16_t rocker_q14, int16_t bogie_q14) {
     static_assert(2ul * vehicle::kBogieArmQ6Bin * 256 == 10ul * 16384);
-    const int32_t distance_q14 = add_wrap(mul_wide(uint8_t{10}, arms_q14), int32_t{0x80});
-    return arms_q14 < 0 ? uint16_t{0} : narrow_wrap_u16(shift_floor<8>(distance_q14));
+    const int16_t arms = arms_q14(rocker_q14, bogie_q14);
+    const int32_t distance_q14 = add_wrap(mul_wide(uint8_t{10}, arms), int32_t{0x80});
+    return arms < 0 ? uint16_t{0} : narrow_wrap_u16(shift_floor<8>(distance_q14));
 }
 
 /// Pose of the left side; of the right one when the left bogie's potentiometer is not valid.
@@ -63,8 +65,8 @@ constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
     pose.bogie_brad = add_wrap(pose.rocker_brad, left ? angles[bogie_left] : angles[bogie_right]);
     const int16_t rocker_q14 = sine_q14(pose.rocker_brad);
     const int16_t bogie_q14 = sine_q14(pose.bogie_brad);
-    pose.middle_height_q4_mm = arms_q4_mm(arms_q14(rocker_q14, neg_wrap(bogie_q14)));
-    pose.front_height_q4_mm = arms_q4_mm(arms_q14(rocker_q14, bogie_q14));
+    pose.middle_height_q4_mm = arms_q4_mm(rocker_q14, neg_wrap(bogie_q14));
+    pose.front_height_q4_mm = arms_q4_mm(rocker_q14, bogie_q14);
 }
 
 /// The distances of a pose: only a slip-and-sinkage cycle needs them.
@@ -72,8 +74,8 @@ constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
 constexpr void add_distances(LinkagePose& pose) {
     const int16_t rocker_q14 = cosine_q14(pose.rocker_brad);
     const int16_t bogie_q14 = cosine_q14(pose.bogie_brad);
-    pose.middle_distance_q6_bin = arms_q6_bin(arms_q14(rocker_q14, neg_wrap(bogie_q14)));
-    pose.front_distance_q6_bin = arms_q6_bin(arms_q14(rocker_q14, bogie_q14));
+    pose.middle_distance_q6_bin = arms_q6_bin(rocker_q14, neg_wrap(bogie_q14));
+    pose.front_distance_q6_bin = arms_q6_bin(rocker_q14, bogie_q14);
 }
 
 /// Pose with distances.
