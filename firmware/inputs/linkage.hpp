@@ -29,6 +29,12 @@ struct LinkagePose {
 static_assert(vehicle::kRockerQ4Mm == 3 * vehicle::kBogieArmQ4Mm);
 static_assert(vehicle::kRockerQ6Bin == 3 * vehicle::kBogieArmQ6Bin);
 
+/// (factor * value + rounding) / 256, rounded down.
+[[gnu::noinline]] constexpr int16_t mul_q8(uint8_t factor_q8, int16_t value, uint16_t rounding_q8) {
+    const int32_t sum_q8 = add_wrap(mul_wide(factor_q8, value), widen_s32(rounding_q8));
+    return narrow_wrap_s16(shift_floor<8>(sum_q8));
+}
+
 /// x + (x + y) / 2, s16 Q14, rounded down.
 /// @param rocker_q14, bogie_q14  [-16383, 16383], so that nothing overflows
 constexpr int16_t arms_q14(int16_t rocker_q14, int16_t bogie_q14) {
@@ -45,8 +51,7 @@ constexpr int16_t arms_q14(int16_t rocker_q14, int16_t bogie_q14) {
 [[gnu::noinline]] constexpr uint16_t arms_q6_bin(int16_t rocker_q14, int16_t bogie_q14) {
     static_assert(2ul * vehicle::kBogieArmQ6Bin * 256 == 10ul * 16384);
     const int16_t arms = arms_q14(rocker_q14, bogie_q14);
-    const int32_t distance_q14 = add_wrap(mul_wide(uint8_t{10}, arms), int32_t{0x80});
-    return arms < 0 ? uint16_t{0} : narrow_wrap_u16(shift_floor<8>(distance_q14));
+    return arms < 0 ? uint16_t{0} : narrow_wrap_u16(mul_q8(10, arms, 0x80));
 }
 
 /// Pose of the left side; of the right one when the left bogie's potentiometer is not valid.
@@ -123,18 +128,15 @@ constexpr void look_ahead(const LinkagePose& pose, int16_t pitch_brad, LookAhead
     const int16_t sine = sine_q14(pitch_brad);
     const int16_t cosine = cosine_q14(pitch_brad);
     // 6600 in Q14 is 103 and 1/8 in Q8. 5/4 make up for the terms that are rounded down.
-    const int32_t first_up_q12_mm = add_wrap(mul_wide(uint8_t{103}, sine), int32_t{0x140});
+    const int16_t first_up_q4_mm = add_wrap(mul_q8(103, sine, 0x140), shift_floor<11>(sine));
     const int16_t pivot_up_q4_mm =
         shift_floor<2>(add_wrap(pose.middle_height_q4_mm, pose.front_height_q4_mm));
-    view.up_q4_mm =
-        add_wrap(add_wrap(pivot_up_q4_mm, narrow_wrap_s16(shift_floor<8>(first_up_q12_mm))),
-                 shift_floor<11>(sine));
-    view.step_up_q4_mm = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{50}, sine)));
+    view.up_q4_mm = add_wrap(pivot_up_q4_mm, first_up_q4_mm);
+    view.step_up_q4_mm = mul_q8(50, sine, 0);
     const uint16_t pivot_along_q8_bin =
         add_wrap(pose.middle_distance_q6_bin, pose.front_distance_q6_bin);
-    view.along_q8_bin = add_wrap(narrow_wrap_s16(pivot_along_q8_bin),
-                                 narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{66}, cosine))));
-    view.step_along_q8_bin = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{32}, cosine)));
+    view.along_q8_bin = add_wrap(narrow_wrap_s16(pivot_along_q8_bin), mul_q8(66, cosine, 0));
+    view.step_along_q8_bin = mul_q8(32, cosine, 0);
     view.versine_q14 = sub_wrap(int16_t{16384}, cosine);
     view.sine_q14_bin = mul_upper(shift_left_wrap<1>(sine), kBinPerMmQ15);
 }
