@@ -88,7 +88,6 @@ constexpr bool is_less(int16_t a, int16_t b) {
         tach += kSideCount;
         int16_t pulses = narrow_wrap_s16(sub_wrap(count, wheel->last_count));
         wheel->last_count = count;
-        if (is_upset(pulses)) pulses = 0;
         int16_t lead = sub_wrap(wheel->ahead_count, before);
         if (!whole || narrow_wrap_u16(lead) > 2 * kTachLeadMaxCount) {
             if (bit_and(bits, uint8_t{1}) == 0) {
@@ -102,6 +101,7 @@ constexpr bool is_less(int16_t a, int16_t b) {
                 lead = kept;
             }
         }
+        if (is_upset(pulses)) pulses = 0;
         if (pulses != 0) moving = true;
         wheel->ahead_count = add_wrap(lead, pulses);
         ++wheel;
