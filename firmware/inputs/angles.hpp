@@ -113,8 +113,8 @@ constexpr bool is_no_angle(uint16_t q4_count) {
     if (q4_count <= hal::kAdcMaxQ4Count) angles.faults = bit_or(angles.faults, bit);
 }
 
-/// The angle of a channel; 0, and not valid, if it is at a rail, absent, uncalibrated or stuck. That
-/// of the right bogie is left 0 while the left one is valid: nobody asks for it.
+/// The angle of a channel; 0, and not valid, if it is at a rail, absent, uncalibrated or stuck.
+/// That of the right bogie is left 0 while the left one is valid: nobody asks for it.
 [[gnu::noinline]] constexpr int16_t read_angle(Angles& angles, uint16_t q4_count,
                                                const hal::AngleCalibration& calibration,
                                                uint8_t bit) {

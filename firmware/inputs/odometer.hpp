@@ -48,15 +48,18 @@ struct Odometer {
 
 /// What one step added.
 struct OdometerStep {
-    int16_t travel_q4_mm = 0;  ///< any: a side advances less than 1 mm a pulse
+    int16_t travel_q4_mm = 0;  ///< [-28672, 28672]
     bool moving = false;       ///< any present wheel counted
     bool valid = false;        ///< at least one wheel is present
 };
+static_assert(16l * (kTachStepMaxCount + 1) <= 28672, "the travel of a step, a pulse below 1 mm");
 
-/// A counter that has been upset, not driven: beyond [-kTachStepMaxCount - 1, kTachStepMaxCount].
+/// A counter that has been upset, not driven: beyond [-kTachStepMaxCount - 1, kTachStepMaxCount],
+/// which is told by the upper byte alone.
 constexpr bool is_upset(int16_t pulses) {
-    static_assert(kTachStepMaxCount == 0x7FF);
-    return add_wrap(narrow_wrap_u8(shift_floor<8>(pulses)), uint8_t{8}) >= 16;
+    constexpr uint8_t kEnd = (kTachStepMaxCount + 1) / 256;
+    static_assert(kEnd * 256 == kTachStepMaxCount + 1);
+    return add_wrap(narrow_wrap_u8(shift_floor<8>(pulses)), kEnd) >= 2 * kEnd;
 }
 
 constexpr bool is_less(int16_t a, int16_t b) {
@@ -70,19 +73,47 @@ constexpr bool is_less(int16_t a, int16_t b) {
     return is_less(c, high) ? c : high;
 }
 
-/// A side advances by its middle wheel; by the mean of two, and the odd pulse stays for the next
-/// step; by the only one.
-/// @param wheel  the front one of its wheels
-/// @param tach   its counter; those behind follow at every second place
-/// @param used   the wheels that count: bits of kSideWheels
+/// Takes out of a lead what is beyond the limits: it is drift. A side that lacks a wheel keeps no
+/// leads, because the mean of two would lose what is taken out of one.
+/// @return  the lead, plus kTachLeadMaxCount
+constexpr int16_t limit_lead(OdometerWheel& wheel, int16_t lead, bool whole,
+                             uint16_t& drift_max_count) {
+    int16_t kept = lead < 0 ? int16_t{0} : int16_t{2 * kTachLeadMaxCount};
+    if (!whole) kept = kTachLeadMaxCount;
+    wheel.drift_count = add_wrap(wheel.drift_count, sub_wrap(lead, kept));
+    drift_max_count = max(drift_max_count, abs_u16(wheel.drift_count));
+    return kept;
+}
+
+/// What a side advances: its middle wheel; or the mean of two, whose odd pulse stays for the next
+/// step; or the only one.
+/// @param wheel  behind its wheels
+constexpr int16_t side_pulses(const OdometerWheel* wheel, OdometerSide& side, uint8_t used) {
+    const int16_t front = wheel[-3].ahead_count;
+    const int16_t middle = wheel[-2].ahead_count;
+    const int16_t rear = wheel[-1].ahead_count;
+    if (used == kSideWheels) return sub_wrap(median3(front, middle, rear), kTachLeadMaxCount);
+    const int16_t sum = add_wrap(add_wrap(front, middle), rear);
+    const int16_t pulses =
+        add_wrap(sub_wrap(sum, int16_t{3 * kTachLeadMaxCount}), widen_s16(side.odd_pulse));
+    side.odd_pulse = 0;
+    if (used != 0b00'01'01 && used != 0b01'00'01 && used != 0b01'01'00) return pulses;
+    side.odd_pulse = bit_and(narrow_wrap_u8(pulses), uint8_t{1});
+    return halve_floor(pulses);
+}
+
+/// One step of a side.
+/// @param wheel   the front one of its wheels
+/// @param tach    its counter; those behind follow at every second place
+/// @param used    the wheels that count: bits of kSideWheels
+/// @param moving  set when one of them counted
 /// @return  pulses
 [[gnu::noinline]] constexpr int16_t side_step(OdometerWheel* wheel, OdometerSide& side,
                                               const uint16_t* tach, uint8_t used,
                                               uint16_t& drift_max_count, bool& moving) {
-    constexpr int16_t kNoLead = kTachLeadMaxCount;
     const bool whole = used == kSideWheels;
     const int16_t before = side.pulses;
-    uint8_t bits = bit_or(used, uint8_t{0x40});  // a last one, to end with
+    uint8_t bits = bit_or(used, uint8_t{0x40});  // and one to end with
     do {
         const uint16_t count = *tach;
         tach += kSideCount;
@@ -90,15 +121,12 @@ constexpr bool is_less(int16_t a, int16_t b) {
         wheel->last_count = count;
         int16_t lead = sub_wrap(wheel->ahead_count, before);
         if (!whole || narrow_wrap_u16(lead) > 2 * kTachLeadMaxCount) {
-            if (bit_and(bits, uint8_t{1}) == 0) {
-                pulses = 0;
-                lead = kNoLead;
-                wheel->drift_count = 0;
+            if (bit_and(bits, uint8_t{1}) != 0) {
+                lead = limit_lead(*wheel, lead, whole, drift_max_count);
             } else {
-                const int16_t kept = !whole ? kNoLead : lead < 0 ? int16_t{0} : int16_t{2 * kNoLead};
-                wheel->drift_count = add_wrap(wheel->drift_count, sub_wrap(lead, kept));
-                drift_max_count = max(drift_max_count, abs_u16(wheel->drift_count));
-                lead = kept;
+                pulses = 0;
+                lead = kTachLeadMaxCount;
+                wheel->drift_count = 0;
             }
         }
         if (is_upset(pulses)) pulses = 0;
@@ -107,27 +135,12 @@ constexpr bool is_less(int16_t a, int16_t b) {
         ++wheel;
         bits = shift_floor<kSideCount>(bits);
     } while (bits != 1);
-    const int16_t front = wheel[-3].ahead_count;
-    const int16_t middle = wheel[-2].ahead_count;
-    const int16_t rear = wheel[-1].ahead_count;
-    int16_t pulses = 0;
-    if (whole) {
-        pulses = sub_wrap(median3(front, middle, rear), kNoLead);
-    } else {
-        const int16_t sum = add_wrap(add_wrap(front, middle), rear);
-        pulses = add_wrap(sub_wrap(sum, int16_t{3 * kNoLead}), widen_s16(side.odd_pulse));
-        side.odd_pulse = 0;
-        if (used == 0b00'01'01 || used == 0b01'00'01 || used == 0b01'01'00) {
-            side.odd_pulse = bit_and(narrow_wrap_u8(pulses), uint8_t{1});
-            pulses = halve_floor(pulses);
-        }
-    }
-    side.pulses = pulses;
-    return pulses;
+    side.pulses = side_pulses(wheel, side, used);
+    return side.pulses;
 }
 
 /// Adds the rim travel of a number of pulses to a rest, s32 Q20 mm. Exact.
-/// @param pulses_q1  twice the mean of both sides, so that no half pulse is lost; [-4096, 4095]
+/// @param pulses_q1  twice the mean of both sides, so that no half pulse is lost; [-3584, 3583]
 /// @return  whole sixteenths of a millimetre above the new rest
 [[gnu::noinline]] constexpr uint32_t add_travel(int16_t pulses_q1, uint16_t rest_q20_mm,
                                                 const hal::Calibration& calibration) {
@@ -152,8 +165,9 @@ constexpr bool is_less(int16_t a, int16_t b) {
     const uint8_t used_right = bit_and(shift_floor<1>(used), kSideWheels);
     int16_t left = side_step(odometer.wheel, odometer.side[0], inputs.tach_count, used_left,
                              odometer.drift_max_count, step.moving);
-    int16_t right = side_step(odometer.wheel + kSideWheelCount, odometer.side[1], inputs.tach_count + 1, used_right,
-                              odometer.drift_max_count, step.moving);
+    int16_t right =
+        side_step(odometer.wheel + kSideWheelCount, odometer.side[1], inputs.tach_count + 1,
+                  used_right, odometer.drift_max_count, step.moving);
     if (used_left == 0) left = right;
     if (used_right == 0) right = left;
     if (left != right) {
@@ -176,8 +190,8 @@ constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& i
     return step;
 }
 
-/// Once a cycle: has a wheel gone kTachDisagreeMm or more beyond or behind its side? Begins the
-/// next cycle.
+/// Once a cycle: has a wheel gone kTachDisagreeMm or more ahead of its side, or behind it, since
+/// the last one? What its lead holds counts in full. Begins the next cycle.
 [[gnu::noinline]] constexpr bool tachometers_disagree(Odometer& odometer,
                                                       const hal::Calibration& calibration) {
     if (odometer.drift_max_count == 0) return false;
