@@ -84,8 +84,10 @@ struct StuckWatch {
 [[gnu::noinline]] constexpr void watch_cycle(StuckWatch& watch, const hal::RawInputs& inputs) {
     uint8_t changed = changed_channels(watch, inputs);
     if (changed == 0) return;
-    for (uint8_t i = 0; i < hal::kAngleChannelCount; ++i) {
-        watch.last_q4_count[i] = inputs.adc_q4_count[i];
+    const uint16_t* count = inputs.adc_q4_count;
+    for (uint16_t& last : watch.last_q4_count) {
+        last = *count;
+        ++count;
     }
     uint8_t stuck = 0;
     uint8_t bit = 1;

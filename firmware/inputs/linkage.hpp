@@ -60,7 +60,11 @@ constexpr int16_t arms_q14(int16_t rocker_q14, int16_t bogie_q14) {
     using enum hal::AngleChannel;
     const bool left = angles.has(bogie_left);
     if (!angles.has(pitch) || !angles.has(differential) || (!left && !angles.has(bogie_right))) {
-        pose = LinkagePose{};
+        pose.side = Side::none;
+        pose.rocker_brad = 0;
+        pose.bogie_brad = 0;
+        pose.middle_height_q4_mm = 0;
+        pose.front_height_q4_mm = 0;
         return;
     }
     pose.side = left ? Side::left : Side::right;
@@ -136,7 +140,7 @@ constexpr void look_ahead(const LinkagePose& pose, int16_t pitch_brad, LookAhead
     const uint16_t pivot_along_q8_bin =
         add_wrap(pose.middle_distance_q6_bin, pose.front_distance_q6_bin);
     view.along_q8_bin = add_wrap(narrow_wrap_s16(pivot_along_q8_bin), mul_q8(66, cosine, 0));
-    view.step_along_q8_bin = mul_q8(32, cosine, 0);
+    view.step_along_q8_bin = shift_floor<3>(cosine);
     view.versine_q14 = sub_wrap(int16_t{16384}, cosine);
     view.sine_q14_bin = mul_upper(shift_left_wrap<1>(sine), kBinPerMmQ15);
 }
