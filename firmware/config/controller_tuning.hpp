@@ -12,7 +12,7 @@ inline constexpr uint16_t kTicksPerStep = 10;  ///< 100 Hz ticks in a 10 Hz cont
 inline constexpr int16_t kCycleTravelQ4Mm = 960;        ///< 60.0 mm: one slip-and-sinkage cycle
 inline constexpr int16_t kCycleOdometerMaxQ6Bin = 500;  ///< 195 mm: the estimator's odometry ends
 inline constexpr uint16_t kTachDisagreeMm = 15;         ///< in a cycle: a tachometer fault
-inline constexpr uint16_t kTachStepMaxCount = 1791;     ///< more pulses in a step: counter upset
+inline constexpr uint16_t kTachStepMaxCount = 1900;     ///< more pulses in a step: counter upset
 inline constexpr int16_t kTachLeadMaxCount = 8;         ///< a wheel ahead of its side: remembered
 
 // -- Sensor faults ----------------------------------------------------------------------------

@@ -82,7 +82,7 @@ struct StuckWatch {
 /// Once a slip-and-sinkage cycle. A channel is stuck when its sum of 16 conversions has been the
 /// same for kStuckCycles cycles in which at least one other channel changed.
 [[gnu::noinline]] constexpr void watch_cycle(StuckWatch& watch, const hal::RawInputs& inputs) {
-    uint8_t changed = changed_channels(watch, inputs);
+    const uint8_t changed = changed_channels(watch, inputs);
     if (changed == 0) return;
     const uint16_t* count = inputs.adc_q4_count;
     for (uint16_t& last : watch.last_q4_count) {

@@ -48,18 +48,15 @@ struct Odometer {
 
 /// What one step added.
 struct OdometerStep {
-    int16_t travel_q4_mm = 0;  ///< [-28672, 28672]
+    int16_t travel_q4_mm = 0;  ///< [-30400, 30400]
     bool moving = false;       ///< any present wheel counted
     bool valid = false;        ///< at least one wheel is present
 };
-static_assert(16l * (kTachStepMaxCount + 1) <= 28672, "the travel of a step, a pulse below 1 mm");
+static_assert(2l * 8 * kTachStepMaxCount <= 30400, "the travel of a step, a pulse below 1 mm");
 
-/// A counter that has been upset, not driven: beyond [-kTachStepMaxCount - 1, kTachStepMaxCount],
-/// which is told by the upper byte alone.
+/// A counter that has been upset, not driven.
 constexpr bool is_upset(int16_t pulses) {
-    constexpr uint8_t kEnd = (kTachStepMaxCount + 1) / 256;
-    static_assert(kEnd * 256 == kTachStepMaxCount + 1);
-    return add_wrap(narrow_wrap_u8(shift_floor<8>(pulses)), kEnd) >= 2 * kEnd;
+    return narrow_wrap_u16(add_wrap(pulses, int16_t{kTachStepMaxCount})) > 2 * kTachStepMaxCount;
 }
 
 constexpr bool is_less(int16_t a, int16_t b) {
@@ -87,11 +84,11 @@ constexpr int16_t limit_lead(OdometerWheel& wheel, int16_t lead, bool whole,
 
 /// What a side advances: its middle wheel; or the mean of two, whose odd pulse stays for the next
 /// step; or the only one.
-/// @param wheel  behind its wheels
+/// @param wheel  its wheels, front first
 constexpr int16_t side_pulses(const OdometerWheel* wheel, OdometerSide& side, uint8_t used) {
-    const int16_t front = wheel[-3].ahead_count;
-    const int16_t middle = wheel[-2].ahead_count;
-    const int16_t rear = wheel[-1].ahead_count;
+    const int16_t front = wheel[0].ahead_count;
+    const int16_t middle = wheel[1].ahead_count;
+    const int16_t rear = wheel[2].ahead_count;
     if (used == kSideWheels) return sub_wrap(median3(front, middle, rear), kTachLeadMaxCount);
     const int16_t sum = add_wrap(add_wrap(front, middle), rear);
     const int16_t pulses =
@@ -112,6 +109,7 @@ constexpr int16_t side_pulses(const OdometerWheel* wheel, OdometerSide& side, ui
                                               const uint16_t* tach, uint8_t used,
                                               uint16_t& drift_max_count, bool& moving) {
     const bool whole = used == kSideWheels;
+    const OdometerWheel* const first = wheel;
     const int16_t before = side.pulses;
     uint8_t bits = bit_or(used, uint8_t{0x40});  // and one to end with
     do {
@@ -135,12 +133,13 @@ constexpr int16_t side_pulses(const OdometerWheel* wheel, OdometerSide& side, ui
         ++wheel;
         bits = shift_floor<kSideCount>(bits);
     } while (bits != 1);
-    side.pulses = side_pulses(wheel, side, used);
+    side.pulses = side_pulses(first, side, used);
     return side.pulses;
 }
 
 /// Adds the rim travel of a number of pulses to a rest, s32 Q20 mm. Exact.
-/// @param pulses_q1  twice the mean of both sides, so that no half pulse is lost; [-3584, 3583]
+/// @param pulses_q1  twice the mean of both sides, so that no half pulse is lost; at most
+///                   2 kTachStepMaxCount either way
 /// @return  whole sixteenths of a millimetre above the new rest
 [[gnu::noinline]] constexpr uint32_t add_travel(int16_t pulses_q1, uint16_t rest_q20_mm,
                                                 const hal::Calibration& calibration) {
@@ -192,6 +191,7 @@ constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& i
 
 /// Once a cycle: has a wheel gone kTachDisagreeMm or more ahead of its side, or behind it, since
 /// the last one? What its lead holds counts in full. Begins the next cycle.
+/// @cost  a product when a wheel is off by 15 pulses; fewer are less than 15 mm at any scale
 [[gnu::noinline]] constexpr bool tachometers_disagree(Odometer& odometer,
                                                       const hal::Calibration& calibration) {
     if (odometer.drift_max_count == 0) return false;
@@ -203,6 +203,7 @@ constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& i
         wheel->drift_count = 0;
         ++wheel;
     } while (--left != 0);
+    if (off < kTachDisagreeMm) return false;
     const uint32_t off_q16_mm = mul_wide(off, calibration.tach_q16_mm_per_count);
     return narrow_wrap_u16(shift_floor<16>(off_q16_mm)) >= kTachDisagreeMm;
 }

@@ -130,7 +130,7 @@ TEST(Odometer, AnUpsetCounterIsNotDriven) {
     Wheels wheels;
     wheels.start();
     for (int i = 0; i < 100; ++i) wheels.step(all(1.0));
-    for (const std::uint16_t jump : {std::uint16_t{0x8000}, std::uint16_t{1792}}) {
+    for (const std::uint16_t jump : {std::uint16_t{0x8000}, std::uint16_t{1901}}) {
         const double before_mm = wheels.measured_mm();
         for (std::uint16_t& count : wheels.inputs.tach_count) {
             count = static_cast<std::uint16_t>(count + jump);
@@ -222,6 +222,24 @@ TEST(TachometersDisagree, MoreThanFifteenMillimetresInACycleAndClearsTheCounts) 
                 << off_mm;
             EXPECT_FALSE(rover::tachometers_disagree(wheels.odometer, wheels.calibration));
         }
+    }
+}
+
+TEST(TachometersDisagree, ADeadWheelOfTwoAndARacingOneThatHasGone) {
+    for (const bool gone : {false, true}) {
+        Wheels wheels;
+        wheels.inputs.tach_present = gone ? kAll : 0b111110;
+        wheels.start();
+        auto advance = all(1.0);
+        advance[2] = gone ? 9 : 0;
+        for (int i = 0; i < 60; ++i) {
+            if (gone && i == 30) wheels.inputs.tach_present = 0b111011;
+            wheels.step(advance);
+        }
+        EXPECT_TRUE(rover::tachometers_disagree(wheels.odometer, wheels.calibration));
+        // The one that has gone is not judged any more.
+        for (int i = 0; i < 60; ++i) wheels.step(advance);
+        EXPECT_EQ(rover::tachometers_disagree(wheels.odometer, wheels.calibration), !gone);
     }
 }
 
