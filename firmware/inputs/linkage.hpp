@@ -51,7 +51,11 @@ constexpr int16_t arms_q14(int16_t rocker_q14, int16_t bogie_q14) {
 [[gnu::noinline]] constexpr uint16_t arms_q6_bin(int16_t rocker_q14, int16_t bogie_q14) {
     static_assert(2ul * vehicle::kBogieArmQ6Bin * 256 == 10ul * 16384);
     const int16_t arms = arms_q14(rocker_q14, bogie_q14);
-    return arms < 0 ? uint16_t{0} : narrow_wrap_u16(mul_q8(10, arms, 0x80));
+    if (arms < 0) return 0;
+    // (10 arms + 128) / 256 in 16 bits: 5/4 of it may be rounded down before it is divided by 32.
+    const uint16_t size_q14 = narrow_wrap_u16(arms);
+    const uint16_t five_quarters = add_wrap(size_q14, shift_floor<2>(size_q14));
+    return shift_floor<5>(add_wrap(five_quarters, uint16_t{16}));
 }
 
 /// Pose of the left side; of the right one when the left bogie's potentiometer is not valid.
