@@ -2,8 +2,8 @@
 // Depends on   config/vehicle.hpp, core/sine.hpp, inputs/angles.hpp.
 // Source       docs/design/controller.md, "Kinematics": z(1), z(2) from rocker and bogie angle,
 //              z(3) ... from the range samples in the body frame.
-// Bounds       two sines and two products by a byte in a step; in a cycle four more sines, and two
-//              products and two by a byte a range sample.
+// Bounds       two sines and two products by a byte in a step; in a cycle four more sines, four
+//              products, three of them by a byte, and two a range sample.
 #pragma once
 
 #include "firmware/config/vehicle.hpp"
