@@ -84,11 +84,12 @@ struct StuckWatch {
 [[gnu::noinline]] constexpr void watch_cycle(StuckWatch& watch, const hal::RawInputs& inputs) {
     const uint8_t changed = changed_channels(watch, inputs);
     if (changed == 0) return;
-    const uint16_t* count = inputs.adc_q4_count;
-    for (uint16_t& last : watch.last_q4_count) {
-        last = *count;
-        ++count;
-    }
+    static_assert(hal::kAngleChannelCount == 5, "one by one takes less than a loop");
+    watch.last_q4_count[0] = inputs.adc_q4_count[0];
+    watch.last_q4_count[1] = inputs.adc_q4_count[1];
+    watch.last_q4_count[2] = inputs.adc_q4_count[2];
+    watch.last_q4_count[3] = inputs.adc_q4_count[3];
+    watch.last_q4_count[4] = inputs.adc_q4_count[4];
     uint8_t stuck = 0;
     uint8_t bit = 1;
     for (uint8_t& same_cycles : watch.same_cycles) {

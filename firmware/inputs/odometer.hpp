@@ -197,12 +197,13 @@ constexpr OdometerStep odometer_step(Odometer& odometer, const hal::RawInputs& i
     if (odometer.drift_max_count == 0) return false;
     const uint16_t off = add_wrap(odometer.drift_max_count, uint16_t{kTachLeadMaxCount});
     odometer.drift_max_count = 0;
-    OdometerWheel* wheel = odometer.wheel;
-    uint8_t left = hal::kWheelCount;
-    do {
-        wheel->drift_count = 0;
-        ++wheel;
-    } while (--left != 0);
+    static_assert(hal::kWheelCount == 6, "one by one takes less than a loop");
+    odometer.wheel[0].drift_count = 0;
+    odometer.wheel[1].drift_count = 0;
+    odometer.wheel[2].drift_count = 0;
+    odometer.wheel[3].drift_count = 0;
+    odometer.wheel[4].drift_count = 0;
+    odometer.wheel[5].drift_count = 0;
     if (off < kTachDisagreeMm) return false;
     const uint32_t off_q16_mm = mul_wide(off, calibration.tach_q16_mm_per_count);
     return narrow_wrap_u16(shift_floor<16>(off_q16_mm)) >= kTachDisagreeMm;
