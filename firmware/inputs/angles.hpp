@@ -55,8 +55,11 @@ constexpr int16_t angle_from_count(uint16_t adc_q4_count,
     const uint16_t distance = below ? neg_wrap(offset) : offset;
     const uint16_t scaled = narrow_wrap_u16(
         shift_floor<16>(add_wrap(mul_wide(distance, calibration.gain_q16), uint32_t{0x8000})));
-    const int16_t wrapped = narrow_wrap_s16(scaled);
-    const int16_t magnitude = wrapped < 0 ? kMaxOf<int16_t> : wrapped;
+    int16_t magnitude = narrow_wrap_s16(scaled);
+    // The upper byte alone tells; as a minimum it would be a comparison of words.
+    if (narrow_wrap_u8(shift_floor<8>(scaled)) >= 0x80) [[unlikely]] {
+        magnitude = kMaxOf<int16_t>;
+    }
     return below != calibration.inverted ? neg_wrap(magnitude) : magnitude;
 }
 
