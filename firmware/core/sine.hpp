@@ -18,10 +18,9 @@ namespace rover {
 /// @accuracy   at most 1.1 LSB from the real sine (Sine.ErrorIsAtMostOneLsbAndATenthAtEveryAngle)
 /// @rounding   half up in magnitude; +-1 saturates to +-16383
 [[gnu::noinline]] constexpr S16 sine_q14(SameAs<S16> auto angle_brad) {
-    const U16 magnitude_brad = abs_u16(angle_brad);  // [0, 1/2] turn
-    const U16 phase_brad =
-        magnitude_brad > U16{0x4000} ? sub_wrap(U16{0x8000}, magnitude_brad) : magnitude_brad;
-    const U16 place = shift_left_wrap<1>(phase_brad);
+    // Half a turn on, the sine is the same with the other sign; in units of half a turn / 2^16.
+    const U16 half_turn = shift_left_wrap<1>(narrow_wrap_u16(angle_brad));
+    const U16 place = half_turn >= U16{0x8000} ? neg_wrap(half_turn) : half_turn;
     const U8 index = narrow_wrap_u8(shift_floor<8>(place));  // [0, 128]
     const U8 fraction_q8 = narrow_wrap_u8(place);
     const auto* const entry = kSineQuarterQ14 + index_of(index);

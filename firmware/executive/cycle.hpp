@@ -193,8 +193,7 @@ constexpr void close_cycle(Controller& controller, const hal::RawInputs& inputs)
     map_grid_sinkage(controller.map, controller.cycle.motion);
     if (controller.cycle.motion != CycleMotion::moved) {
         watch_cycle(controller.stuck, inputs);
-        const bool disagree =
-            tachometers_disagree(controller.odometer, inputs.tach_present, controller.calibration);
+        const bool disagree = tachometers_disagree(controller.odometer, controller.calibration);
         controller.sensor_faults = disagree ? uint16_t{kFaultTachometer} : uint16_t{0};
     }
     estimates.cycle_count = add_wrap(estimates.cycle_count, uint16_t{1});

@@ -55,8 +55,11 @@ constexpr int16_t angle_from_count(uint16_t adc_q4_count,
     const uint16_t distance = below ? neg_wrap(offset) : offset;
     const uint16_t scaled = narrow_wrap_u16(
         shift_floor<16>(add_wrap(mul_wide(distance, calibration.gain_q16), uint32_t{0x8000})));
-    const int16_t wrapped = narrow_wrap_s16(scaled);
-    const int16_t magnitude = wrapped < 0 ? kMaxOf<int16_t> : wrapped;
+    int16_t magnitude = narrow_wrap_s16(scaled);
+    // The upper byte alone tells; as a minimum it would be a comparison of words.
+    if (narrow_wrap_u8(shift_floor<8>(scaled)) >= 0x80) [[unlikely]] {
+        magnitude = kMaxOf<int16_t>;
+    }
     return below != calibration.inverted ? neg_wrap(magnitude) : magnitude;
 }
 
@@ -67,46 +70,41 @@ struct StuckWatch {
     uint8_t stuck = 0;  ///< channel bits: at the last cycle
 };
 
+/// Channels whose sums are not those of the last cycle.
+[[gnu::noinline]] constexpr uint8_t changed_channels(const StuckWatch& watch,
+                                                     const hal::RawInputs& inputs) {
+    uint8_t changed = 0;
+    for (uint8_t i = hal::kAngleChannelCount; i != 0;) {
+        --i;
+        changed = shift_left_wrap<1>(changed);
+        if (inputs.adc_q4_count[i] != watch.last_q4_count[i]) ++changed;
+    }
+    return changed;
+}
+
 /// Once a slip-and-sinkage cycle. A channel is stuck when its sum of 16 conversions has been the
 /// same for kStuckCycles cycles in which at least one other channel changed.
 [[gnu::noinline]] constexpr void watch_cycle(StuckWatch& watch, const hal::RawInputs& inputs) {
-    const uint16_t* count = inputs.adc_q4_count;
-    uint16_t* last = watch.last_q4_count;
-    uint8_t i = hal::kAngleChannelCount;
-    for (; i != 0 && *count == *last; --i) {
-        ++count;
-        ++last;
-    }
-    if (i == 0) return;  // nothing has changed
-    count = inputs.adc_q4_count;
-    last = watch.last_q4_count;
+    const uint8_t changed = changed_channels(watch, inputs);
+    if (changed == 0) return;
+    static_assert(hal::kAngleChannelCount == 5, "one by one takes less than a loop");
+    watch.last_q4_count[0] = inputs.adc_q4_count[0];
+    watch.last_q4_count[1] = inputs.adc_q4_count[1];
+    watch.last_q4_count[2] = inputs.adc_q4_count[2];
+    watch.last_q4_count[3] = inputs.adc_q4_count[3];
+    watch.last_q4_count[4] = inputs.adc_q4_count[4];
     uint8_t stuck = 0;
     uint8_t bit = 1;
     for (uint8_t& same_cycles : watch.same_cycles) {
-        if (*count != *last) {
-            *last = *count;
+        if (bit_and(changed, bit) != 0) {
             same_cycles = 0;
         } else if (same_cycles < kStuckCycles) {
             ++same_cycles;
         }
         if (same_cycles == kStuckCycles) stuck = bit_or(stuck, bit);
-        ++count;
-        ++last;
         bit = shift_left_wrap<1>(bit);
     }
     watch.stuck = stuck;
-}
-
-/// Channels that repeat what they said when they were found stuck.
-[[gnu::noinline]] constexpr uint8_t still_stuck(const StuckWatch& watch,
-                                                const hal::RawInputs& inputs) {
-    uint8_t stuck = 0;
-    for (uint8_t i = hal::kAngleChannelCount; i != 0;) {
-        --i;
-        stuck = shift_left_wrap<1>(stuck);
-        if (inputs.adc_q4_count[i] == watch.last_q4_count[i]) stuck = bit_or(stuck, uint8_t{1});
-    }
-    return bit_and(stuck, watch.stuck);
 }
 
 /// Rails and absence are the counts from -16 to 0, modulo 2^16.
@@ -122,18 +120,20 @@ constexpr bool is_no_angle(uint16_t q4_count) {
 }
 
 /// The angle of a channel; 0, and not valid, if it is at a rail, absent, uncalibrated or stuck.
+/// That of the right bogie is left 0 while the left one is valid: nobody asks for it.
 [[gnu::noinline]] constexpr int16_t read_angle(Angles& angles, uint16_t q4_count,
                                                const hal::AngleCalibration& calibration,
                                                uint8_t bit) {
+    using enum hal::AngleChannel;
     if (is_no_angle(q4_count) || calibration.gain_q16 == 0 || bit_and(angles.stuck, bit) != 0) {
         refuse_angle(angles, q4_count, bit);
         return 0;
     }
+    if (bit == channel_bit(bogie_right) && angles.has(bogie_left)) return 0;
     return angle_from_count(q4_count, calibration);
 }
 
 /// Angles of this step; a channel that is absent, at a rail, uncalibrated or stuck is not valid.
-/// That of the right bogie is left 0 while the left one is valid: nobody asks for it.
 [[gnu::noinline]] constexpr void read_angles(const hal::RawInputs& inputs,
                                              const hal::Calibration& calibration,
                                              const StuckWatch& watch, Angles& angles) {
@@ -142,13 +142,12 @@ constexpr bool is_no_angle(uint16_t q4_count) {
     const hal::AngleCalibration* const by = calibration.angle;
     angles.valid = kAllAngles;
     angles.faults = 0;
-    angles.stuck = watch.stuck == 0 ? uint8_t{0} : still_stuck(watch, inputs);
-    angles.brad[0] = read_angle(angles, count[0], by[0], channel_bit(bogie_left));
-    angles.brad[1] = 0;
-    const bool right_is_stuck = bit_and(angles.stuck, channel_bit(bogie_right)) != 0;
-    if (!angles.has(bogie_left) || is_no_angle(count[1]) || by[1].gain_q16 == 0 || right_is_stuck) {
-        angles.brad[1] = read_angle(angles, count[1], by[1], channel_bit(bogie_right));
+    angles.stuck = watch.stuck;
+    if (watch.stuck != 0) {
+        angles.stuck = bit_and(watch.stuck, bit_xor(changed_channels(watch, inputs), kAllAngles));
     }
+    angles.brad[0] = read_angle(angles, count[0], by[0], channel_bit(bogie_left));
+    angles.brad[1] = read_angle(angles, count[1], by[1], channel_bit(bogie_right));
     angles.brad[2] = read_angle(angles, count[2], by[2], channel_bit(differential));
     angles.brad[3] = read_angle(angles, count[3], by[3], channel_bit(pitch));
     angles.brad[4] = read_angle(angles, count[4], by[4], channel_bit(roll));

@@ -2,8 +2,8 @@
 // Depends on   config/vehicle.hpp, core/sine.hpp, inputs/angles.hpp.
 // Source       docs/design/controller.md, "Kinematics": z(1), z(2) from rocker and bogie angle,
 //              z(3) ... from the range samples in the body frame.
-// Bounds       two sines and two products by a byte in a step; in a cycle four more sines, and two
-//              products and two by a byte a range sample.
+// Bounds       two sines and two products by a byte in a step; in a cycle four more sines, four
+//              products, three of them by a byte, and two a range sample.
 #pragma once
 
 #include "firmware/config/vehicle.hpp"
@@ -29,22 +29,33 @@ struct LinkagePose {
 static_assert(vehicle::kRockerQ4Mm == 3 * vehicle::kBogieArmQ4Mm);
 static_assert(vehicle::kRockerQ6Bin == 3 * vehicle::kBogieArmQ6Bin);
 
+/// (factor * value + rounding) / 256, rounded down.
+[[gnu::noinline]] constexpr int16_t mul_q8(uint8_t factor_q8, int16_t value, uint16_t rounding_q8) {
+    const int32_t sum_q8 = add_wrap(mul_wide(factor_q8, value), widen_s32(rounding_q8));
+    return narrow_wrap_s16(shift_floor<8>(sum_q8));
+}
+
 /// x + (x + y) / 2, s16 Q14, rounded down.
 /// @param rocker_q14, bogie_q14  [-16383, 16383], so that nothing overflows
 constexpr int16_t arms_q14(int16_t rocker_q14, int16_t bogie_q14) {
     return add_wrap(rocker_q14, halve_floor(add_wrap(rocker_q14, bogie_q14)));
 }
-/// Twice a bogie's arm times a ratio, s16 Q4 mm, rounded half up.
-constexpr int16_t arms_q4_mm(int16_t arms_q14) {
+/// Height of a contact by the sines of rocker and bogie: twice a bogie's arm times the ratio above,
+/// s16 Q4 mm, rounded half up.
+[[gnu::noinline]] constexpr int16_t arms_q4_mm(int16_t rocker_q14, int16_t bogie_q14) {
     static_assert(2ul * vehicle::kBogieArmQ4Mm * 512 == 125ul * 16384);
-    const int16_t twice = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{125}, arms_q14)));
-    return halve_floor(add_wrap(twice, int16_t{1}));
+    const int32_t twice_q8 = mul_wide(uint8_t{125}, arms_q14(rocker_q14, bogie_q14));
+    return halve_floor(add_wrap(narrow_wrap_s16(shift_floor<8>(twice_q8)), int16_t{1}));
 }
 /// The same in 1/64 bin; what lies behind counts as 0.
-constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
+[[gnu::noinline]] constexpr uint16_t arms_q6_bin(int16_t rocker_q14, int16_t bogie_q14) {
     static_assert(2ul * vehicle::kBogieArmQ6Bin * 256 == 10ul * 16384);
-    const int32_t distance_q14 = add_wrap(mul_wide(uint8_t{10}, arms_q14), int32_t{0x80});
-    return arms_q14 < 0 ? uint16_t{0} : narrow_wrap_u16(shift_floor<8>(distance_q14));
+    const int16_t arms = arms_q14(rocker_q14, bogie_q14);
+    if (arms < 0) return 0;
+    // (10 arms + 128) / 256 in 16 bits: 5/4 of it may be rounded down before it is divided by 32.
+    const uint16_t size_q14 = narrow_wrap_u16(arms);
+    const uint16_t five_quarters = add_wrap(size_q14, shift_floor<2>(size_q14));
+    return shift_floor<5>(add_wrap(five_quarters, uint16_t{16}));
 }
 
 /// Pose of the left side; of the right one when the left bogie's potentiometer is not valid.
@@ -53,7 +64,11 @@ constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
     using enum hal::AngleChannel;
     const bool left = angles.has(bogie_left);
     if (!angles.has(pitch) || !angles.has(differential) || (!left && !angles.has(bogie_right))) {
-        pose = LinkagePose{};
+        pose.side = Side::none;
+        pose.rocker_brad = 0;
+        pose.bogie_brad = 0;
+        pose.middle_height_q4_mm = 0;
+        pose.front_height_q4_mm = 0;
         return;
     }
     pose.side = left ? Side::left : Side::right;
@@ -63,8 +78,8 @@ constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
     pose.bogie_brad = add_wrap(pose.rocker_brad, left ? angles[bogie_left] : angles[bogie_right]);
     const int16_t rocker_q14 = sine_q14(pose.rocker_brad);
     const int16_t bogie_q14 = sine_q14(pose.bogie_brad);
-    pose.middle_height_q4_mm = arms_q4_mm(arms_q14(rocker_q14, neg_wrap(bogie_q14)));
-    pose.front_height_q4_mm = arms_q4_mm(arms_q14(rocker_q14, bogie_q14));
+    pose.middle_height_q4_mm = arms_q4_mm(rocker_q14, neg_wrap(bogie_q14));
+    pose.front_height_q4_mm = arms_q4_mm(rocker_q14, bogie_q14);
 }
 
 /// The distances of a pose: only a slip-and-sinkage cycle needs them.
@@ -72,8 +87,8 @@ constexpr uint16_t arms_q6_bin(int16_t arms_q14) {
 constexpr void add_distances(LinkagePose& pose) {
     const int16_t rocker_q14 = cosine_q14(pose.rocker_brad);
     const int16_t bogie_q14 = cosine_q14(pose.bogie_brad);
-    pose.middle_distance_q6_bin = arms_q6_bin(arms_q14(rocker_q14, neg_wrap(bogie_q14)));
-    pose.front_distance_q6_bin = arms_q6_bin(arms_q14(rocker_q14, bogie_q14));
+    pose.middle_distance_q6_bin = arms_q6_bin(rocker_q14, neg_wrap(bogie_q14));
+    pose.front_distance_q6_bin = arms_q6_bin(rocker_q14, bogie_q14);
 }
 
 /// Pose with distances.
@@ -121,18 +136,15 @@ constexpr void look_ahead(const LinkagePose& pose, int16_t pitch_brad, LookAhead
     const int16_t sine = sine_q14(pitch_brad);
     const int16_t cosine = cosine_q14(pitch_brad);
     // 6600 in Q14 is 103 and 1/8 in Q8. 5/4 make up for the terms that are rounded down.
-    const int32_t first_up_q12_mm = add_wrap(mul_wide(uint8_t{103}, sine), int32_t{0x140});
+    const int16_t first_up_q4_mm = add_wrap(mul_q8(103, sine, 0x140), shift_floor<11>(sine));
     const int16_t pivot_up_q4_mm =
         shift_floor<2>(add_wrap(pose.middle_height_q4_mm, pose.front_height_q4_mm));
-    view.up_q4_mm =
-        add_wrap(add_wrap(pivot_up_q4_mm, narrow_wrap_s16(shift_floor<8>(first_up_q12_mm))),
-                 shift_floor<11>(sine));
-    view.step_up_q4_mm = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{50}, sine)));
+    view.up_q4_mm = add_wrap(pivot_up_q4_mm, first_up_q4_mm);
+    view.step_up_q4_mm = mul_q8(50, sine, 0);
     const uint16_t pivot_along_q8_bin =
         add_wrap(pose.middle_distance_q6_bin, pose.front_distance_q6_bin);
-    view.along_q8_bin = add_wrap(narrow_wrap_s16(pivot_along_q8_bin),
-                                 narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{66}, cosine))));
-    view.step_along_q8_bin = narrow_wrap_s16(shift_floor<8>(mul_wide(uint8_t{32}, cosine)));
+    view.along_q8_bin = add_wrap(narrow_wrap_s16(pivot_along_q8_bin), mul_q8(66, cosine, 0));
+    view.step_along_q8_bin = shift_floor<3>(cosine);
     view.versine_q14 = sub_wrap(int16_t{16384}, cosine);
     view.sine_q14_bin = mul_upper(shift_left_wrap<1>(sine), kBinPerMmQ15);
 }

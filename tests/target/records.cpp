@@ -43,11 +43,17 @@ void add(Record& record, const rover::Estimates& value) {
 }
 
 void add(Record& record, const rover::Odometer& value) {
-    record.field("odometer.offset_count", value.offset_count);
-    record.field("odometer.side_count", value.side_count);
-    record.field("odometer.lead_count", value.lead_count);
-    record.field("odometer.drift_count", value.drift_count);
+    for (const rover::OdometerWheel& wheel : value.wheel) {
+        record.field("odometer.wheel.last_count", wheel.last_count);
+        record.field("odometer.wheel.ahead_count", wheel.ahead_count);
+        record.field("odometer.wheel.drift_count", wheel.drift_count);
+    }
+    for (const rover::OdometerSide& side : value.side) {
+        record.field("odometer.side.pulses", side.pulses);
+        record.field("odometer.side.odd_pulse", side.odd_pulse);
+    }
     record.field("odometer.present", value.present);
+    record.field("odometer.drift_max_count", value.drift_max_count);
     record.field("odometer.rest_q20_mm", value.rest_q20_mm);
     record.field("odometer.turn_rest_q20_mm", value.turn_rest_q20_mm);
     record.field("odometer.travel_q4_mm", value.travel_q4_mm);
