@@ -20,6 +20,7 @@
 #include "firmware/executive/motor_commands.hpp"
 #include "firmware/executive/schedule.hpp"
 #include "firmware/executive/servo_loops.hpp"
+#include "firmware/link/byte_ring.hpp"
 #include "firmware/link/calibration_frame.hpp"
 #include "firmware/link/frames.hpp"
 #include "hal/board/rb85_parts.hpp"
@@ -39,7 +40,7 @@ constexpr uint8_t kForgetTick = 0x10;  // a tick that came before
 // -- What interrupts and main line share ---------------------------------------------------------
 
 WheelCount wheels[hal::kWheelCount];
-ByteRing<64> received;
+alignas(128) ByteRing<64> received;
 alignas(256) PageRing to_send;
 uint8_t ticks_to_count;  // the tick's
 ServoLoops servos;
@@ -106,14 +107,6 @@ const Content* stored(uint8_t record) {
 /// An edge for the watchdog.
 [[gnu::noinline]] void feed_watchdog() {
     Parts::Watchdog::toggle();
-}
-
-/// A u16 that an interrupt counts up.
-[[gnu::noinline]] uint16_t read_shared(const volatile uint16_t& value) {
-    Bus::disable_interrupts();
-    const uint16_t seen = value;
-    Bus::enable_interrupts();
-    return seen;
 }
 
 }  // namespace
@@ -195,29 +188,24 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     Parts::Usart::reset();
 }
 
-[[gnu::noinline]] bool image_is_intact() {
+[[gnu::noinline]] void check_image() {
     const volatile uint8_t* at = identity_bytes() + __builtin_offsetof(Identity, image_size);
-    const uint8_t low = at[0];
-    const uint8_t high = at[1];
-    const uint16_t size = bit_or(widen_u16(low), shift_left_wrap<8>(widen_u16(high)));
+    const uint16_t size = *reinterpret_cast<const volatile uint16_t*>(at);
     const auto check_at = static_cast<uint16_t>(reinterpret_cast<uintptr_t>(at) + 2);
-    return rom_is_intact(reinterpret_cast<const volatile uint8_t*>(hal::rb85::kEepromFirst), size,
-                         check_at, [] { feed_watchdog(); });
+    const auto* const rom = reinterpret_cast<const volatile uint8_t*>(hal::rb85::kEepromFirst);
+    if (!rom_is_intact(rom, size, check_at, [] { feed_watchdog(); })) set_fault(kFaultRom);
 }
 
-/// @param all  else only what the image uses
-[[gnu::noinline]] bool ram_holds(bool all) {
-    auto* const first = reinterpret_cast<volatile uint8_t*>(hal::rb85::kRamFirst);
-    if (!address_lines_hold(first, 0x4000)) return false;
+[[gnu::noinline]] void check_ram() {
+    const auto wrong = [] { set_fault(kFaultRam); };
+    test_address_lines(reinterpret_cast<volatile uint8_t*>(hal::rb85::kRamFirst), 0x4000, wrong);
     uint8_t page = narrow_wrap_u8(uint16_t{hal::rb85::kRamFirst / 256});
-    const uint8_t variables_end = narrow_wrap_u8(uint16_t{kRamInUseLast / 256 + 1});
-    for (; page != hal::rb85::kCheckpointFirst / 256; page = add_wrap(page, uint8_t{1})) {
-        if (!all && page == variables_end) page = narrow_wrap_u8(uint16_t{kStackFirst / 256});
+    do {
         feed_watchdog();
         const uint16_t address = shift_left_wrap<8>(widen_u16(page));
-        if (!cells_hold(reinterpret_cast<volatile uint8_t*>(address), 0)) return false;
-    }
-    return true;
+        test_cells(reinterpret_cast<volatile uint8_t*>(address), 0, wrong);
+        page = add_wrap(page, uint8_t{1});
+    } while (page != hal::rb85::kCheckpointFirst / 256);
 }
 
 /// What the last run has left, before it is overwritten.
@@ -243,29 +231,28 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 [[gnu::noinline]] bool start_controller() {
     set_initial_values(controller);
     begin_converter(inputs);
-    if (record_is_valid(battery_area() + battery::kCalibration, kCalibrationBytes)) {
-        take_calibration(controller, *stored<hal::Calibration>(battery::kCalibration));
-    } else {
-        controller.calibration_fault = kFaultCalibration;
+    const auto& calibration = *stored<hal::Calibration>(battery::kCalibration);
+    bool valid = calibration.version == hal::kCalibrationVersion;
+    if (!record_is_valid(battery_area() + battery::kCalibration, kCalibrationBytes)) {
         set_fault(kFaultNoRecord);
+        valid = false;
     }
+    use_calibration(controller, calibration, valid);
     if (!find_checkpoint(battery_area(), checkpoint)) {
         set_fault(kFaultNoCheckpoint);
         return false;
     }
-    alignas(PoseRecord) uint8_t record[sizeof(PoseRecord)];  // at a fixed place, unlike the slot
-    copy_bytes(record, battery_area() + add_wrap(checkpoint.slot, kRecordContent), sizeof record);
-    controller_resume(controller, *reinterpret_cast<const PoseRecord*>(record));
+    controller_resume(controller, *stored<PoseRecord>(checkpoint.slot));
     return true;
 }
 
 [[gnu::noinline]] void rover_boot() {
     start_parts();
     take_over_status();
-    if (!image_is_intact()) set_fault(kFaultRom);
+    check_image();
     const bool warm = start_controller();
     status.warm = warm ? 1 : 0;
-    if (!ram_holds(!warm)) set_fault(kFaultRam);
+    check_ram();
     set_stack_guard(stack_guard());
     Parts::TimerA::start<hal::rb85::kTickCounter, Parts::TimerA::Mode::rate_generator>(
         hal::rb85::kTickCount);
@@ -291,17 +278,15 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 
 /// Sleeps until a step is due.
 [[gnu::noinline]] void rover_wait() {
+    uint16_t tick;
     for (;;) {
         Bus::disable_interrupts();
-        const uint16_t tick = rover_tick_count;
-        if (step_is_due(schedule, tick)) {
-            const bool on_time = begin_due_step(schedule, tick);
-            Bus::enable_interrupts();
-            if (!on_time) set_fault(kFaultStepLate);
-            return;
-        }
+        tick = rover_tick_count;
+        if (step_is_due(schedule, tick)) break;
         enable_and_halt();
     }
+    Bus::enable_interrupts();
+    begin_due_step(schedule, tick, [] { set_fault(kFaultStepLate); });
 }
 
 [[gnu::noinline]] void rover_acquire() {
@@ -310,20 +295,17 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     inputs.tach_present = Parts::Presence::wheels();
     inputs.detector_bits = Parts::PpiB::read_b();
     read_range<Parts>(inputs);
-    read_link(received, inputs);
     read_converter<Parts>(inputs, [] { set_fault(kFaultConverter); });
     Parts::AnalogInputs::release();
 }
 
 [[gnu::noinline]] void rover_control() {
-    controller_step(controller, inputs, commands);
+    control_step(controller, inputs, commands);
 }
 
 /// A TRAP at any place in here leaves the motors off.
 [[gnu::noinline]] void rover_apply() {
-    DriveLatches latches;
-    drive_latches(commands, latches);
-    Parts::Motors::drive(latches.duty, latches.backward);
+    drive_motors<Parts::Motors>(commands.drive_percent);
     const uint8_t lasers = bit_and(commands.laser_bits, hal::rb85::kLaserMask);
     Bus::disable_interrupts();
     Parts::PpiA::replace_c<hal::rb85::kLaserMask>(lasers);
@@ -335,6 +317,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
 [[gnu::noinline]] bool room_to_send(uint8_t size) {
     if (to_send.room() >= size) return true;
     status.frames_dropped = add_wrap(status.frames_dropped, uint16_t{1});
+    set_fault(kFaultLinkLost);
     return false;
 }
 
@@ -351,9 +334,12 @@ struct ToSend {
     write_frame<Downlink>(sink, static_cast<uint8_t>(kind), payload, size);
 }
 
+/// The estimates as a frame: here a struct has the bytes of the payload.
 [[gnu::noinline]] void rover_send() {
-    if (!room_to_send(commands.telemetry_size)) return;
-    ToSend::push_all(commands.telemetry, commands.telemetry_size);
+    static_assert(kEstimatesAreThePayload);
+    queue_frame(DownlinkKind::telemetry,
+                reinterpret_cast<const volatile uint8_t*>(&controller.estimates),
+                kTelemetryPayloadSize);
 }
 
 [[gnu::noinline]] void send_status() {
@@ -361,9 +347,11 @@ struct ToSend {
                            shift_left_wrap<8>(widen_u16(uint8_t{trap_faults()})));
     status.late_steps = schedule.late_steps;
     status.missed_steps = schedule.missed_steps;
-    status.receive_dropped = read_shared(received.dropped);
+    Bus::disable_interrupts();  // for 64 T: these are the receive handler's
+    status.receive_dropped = received.dropped;
+    status.receive_errors = receive_errors;
+    Bus::enable_interrupts();
     status.received = add_wrap(link_bytes, status.receive_dropped);
-    status.receive_errors = read_shared(receive_errors);
     status.frames_refused = uplink.refused;
     status.trap_count = trap_count;
     queue_frame(DownlinkKind::status, reinterpret_cast<const volatile uint8_t*>(&status),
@@ -373,45 +361,44 @@ struct ToSend {
 [[gnu::noinline]] AckResult store_calibration() {
     if (uplink.size() != kCalibrationBytes) return AckResult::wrong_size;
     const uint8_t* const bytes = uplink.payload();
-    for (uint8_t i = 0; i < hal::kAngleChannelCount; ++i) {
-        if (bytes[6 + 5 * i] > 1) return AckResult::refused;  // `inverted`
+    bool usable = is_valid(*reinterpret_cast<const hal::Calibration*>(bytes));
+    const uint8_t* inverted = bytes + 6;
+    for (uint8_t left = hal::kAngleChannelCount; left != 0; --left) {
+        if (*inverted > 1) usable = false;
+        inverted += 5;
     }
-    if (!is_valid(*reinterpret_cast<const hal::Calibration*>(bytes))) return AckResult::refused;
+    if (!usable) return AckResult::refused;
     write_record(battery_area() + battery::kCalibration, 0, bytes, kCalibrationBytes);
     return AckResult::done;
 }
 
 [[gnu::noinline]] AckResult prepare_restart() {
     if (uplink.size() != 1) return AckResult::wrong_size;
-    if (uplink.payload()[0] > static_cast<uint8_t>(RestartKind::cold)) return AckResult::refused;
-    const bool cold = uplink.payload()[0] == static_cast<uint8_t>(RestartKind::cold);
-    battery_area()[battery::kMark] =
-        static_cast<uint8_t>(cold ? RunMark::cold_restart : RunMark::warm_restart);
+    const uint8_t kind = uplink.payload()[0];
+    if (kind > static_cast<uint8_t>(RestartKind::cold)) return AckResult::refused;
+    const RunMark mark = kind != 0 ? RunMark::cold_restart : RunMark::warm_restart;
+    battery_area()[battery::kMark] = static_cast<uint8_t>(mark);
     restarting = true;
     return AckResult::done;
 }
 
 [[gnu::noinline]] void answer_frame() {
-    AckResult result = AckResult::unknown_type;
-    switch (static_cast<UplinkType>(uplink.type())) {
-        case UplinkType::identity:
-            queue_frame(DownlinkKind::identity, identity_bytes() + sizeof rover_identity.magic,
-                        kIdentityPayloadSize);
-            return;
-        case UplinkType::status:
-            send_status();
-            return;
-        case UplinkType::calibration:
-            result = store_calibration();
-            break;
-        case UplinkType::restart:
-            result = prepare_restart();
-            break;
-        default:
-            break;
+    const auto type = static_cast<UplinkType>(uplink.type());
+    if (type == UplinkType::identity) {
+        queue_frame(DownlinkKind::identity, identity_bytes() + sizeof rover_identity.magic,
+                    kIdentityPayloadSize);
+        return;
     }
-    const uint8_t payload[2] = {uplink.type(), static_cast<uint8_t>(result)};
-    queue_frame(DownlinkKind::acknowledge, payload, sizeof payload);
+    if (type == UplinkType::status) {
+        send_status();
+        return;
+    }
+    AckResult result = AckResult::unknown_type;
+    if (type == UplinkType::calibration) result = store_calibration();
+    if (type == UplinkType::restart) result = prepare_restart();
+    // Type and result: in the request the size stands behind the type.
+    uplink.frame[3] = static_cast<uint8_t>(result);
+    queue_frame(DownlinkKind::acknowledge, uplink.frame + 2, 2);
 }
 
 /// Lets the transmitter take what has been queued.
@@ -423,21 +410,20 @@ void start_transmitter() {
 
 /// Frames among the bytes of this step.
 [[gnu::noinline]] void rover_link() {
-    link_bytes = add_wrap(link_bytes, widen_u16(inputs.command_size));
-    if (inputs.command_size == 0) uplink.quiet();
-    const uint8_t* next = inputs.command;
-    for (uint8_t left = inputs.command_size; left != 0; --left) {
-        if (uplink.take(*next++)) answer_frame();
+    if (received.empty()) uplink.quiet();
+    for (uint8_t left = hal::kCommandBytesMax; left != 0 && !received.empty(); --left) {
+        link_bytes = add_wrap(link_bytes, uint16_t{1});
+        uplink.take(received.pop(), [] { answer_frame(); });
     }
     // Not of one moment: a count that is on its way from 00FFh to 0100h is seen in the next step.
-    const uint16_t lost =
-        bit_or(bit_or(uint16_t{received.dropped}, uint16_t{receive_errors}), status.frames_dropped);
+    const uint16_t lost = bit_or(uint16_t{received.dropped}, uint16_t{receive_errors});
     if (lost != 0) set_fault(kFaultLinkLost);
     start_transmitter();
 }
 
 [[gnu::noinline]] void rover_checkpoint() {
-    save_checkpoint(battery_area(), checkpoint, pose_record(controller));
+    add_odometry(controller, controller.map);
+    save_checkpoint(battery_area(), checkpoint, controller.map);
 }
 
 /// Motors off and no more edges: the watchdog resets, when what is queued has been sent.

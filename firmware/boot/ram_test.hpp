@@ -13,8 +13,9 @@ namespace rover {
 /// was written reads differently behind the two patterns.
 /// @tparam Byte  volatile on the target
 /// @param count  [1, 256]: 256 is given as 0
-template <class Byte>
-[[gnu::noinline]] bool cells_hold(Byte* cell, uint8_t count) {
+/// @param wrong  called when they cannot
+template <class Byte, class Wrong>
+[[gnu::noinline]] void test_cells(Byte* cell, uint8_t count, Wrong wrong) {
     uint8_t changed = 0xFF;
     do {
         const uint8_t before = *cell;
@@ -26,12 +27,12 @@ template <class Byte>
         changed = bit_and(changed, bit_xor(first, second));
         ++cell;
     } while (--count != 0);
-    return changed == 0xFF;
+    if (changed != 0xFF) wrong();
 }
 
-/// Are these two cells two? @pre they are
-template <class Byte>
-[[gnu::noinline]] bool are_apart(Byte* a, Byte* b) {
+/// Are these two cells two? @pre they are @param wrong  called when they are one
+template <class Byte, class Wrong>
+[[gnu::noinline]] void test_two(Byte* a, Byte* b, Wrong wrong) {
     const uint8_t before_a = *a;
     const uint8_t before_b = *b;
     *a = uint8_t{0x55};
@@ -39,23 +40,28 @@ template <class Byte>
     const uint8_t seen = *a;
     *b = before_b;
     *a = before_a;
-    return seen == 0x55;
+    if (seen != 0x55) wrong();
+}
+
+/// The address line below; none below the lowest.
+[[gnu::noinline]] constexpr uint16_t line_below(uint16_t line) {
+    return shift_floor<1>(line);
 }
 
 /// Is every address line connected, to nothing but itself? Compares the cells whose offset has no
 /// or one bit set, each with each.
 /// @param first  the first cell; offsets below 2 * `highest` exist
 /// @param highest  the highest line, a power of two
-template <class Byte>
-bool address_lines_hold(Byte* first, uint16_t highest) {
-    for (uint16_t line = highest; line != 0; line = shift_floor<1>(line)) {
+/// @param wrong  called for every two that are one
+template <class Byte, class Wrong>
+void test_address_lines(Byte* first, uint16_t highest, Wrong wrong) {
+    for (uint16_t line = highest; line != 0; line = line_below(line)) {
         uint16_t other = line;
         do {
-            other = shift_floor<1>(other);
-            if (!are_apart(first + line, first + other)) return false;
+            other = line_below(other);
+            test_two(first + line, first + other, wrong);
         } while (other != 0);
     }
-    return true;
 }
 
 }  // namespace rover

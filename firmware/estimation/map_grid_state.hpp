@@ -9,6 +9,7 @@
 #include "firmware/core/arith.hpp"
 #include "firmware/core/ring.hpp"
 #include "firmware/executive/estimates.hpp"
+#include "firmware/executive/pose.hpp"
 
 namespace rover {
 
@@ -37,12 +38,15 @@ struct GroundAhead {
     U8 fraction_q8[slip::kNodeCount] = {};  ///< of the bin, lowest bit set; 0: no sample
 };
 
-struct MapGrid {
-    // The rings come first, 160 bytes. Where the map begins a page of memory, as in the image, the
-    // 8085 adds a subscript to the low byte of the address alone.
-    // Load-bearing surface L = y - s at whole bins; node n lives at n modulo 32.
+/// They come first in the map, 160 bytes. Where it begins a page of memory, as in the image, the
+/// 8085 adds a subscript to the low byte of the address alone.
+struct MapRings {
+    /// Load-bearing surface L = y - s at whole bins; node n lives at n modulo 32.
     S16 surface_q4_mm[slip::kNodeCount] = {};
     GroundAhead ahead{};
+};
+
+struct MapGrid : MapRings, Pose {
     bool has_map = false;
     bool measured = false;        ///< the rear wheel stands on ground that the front wheel measured
     U16 lowest_q6_bin{0};         ///< place of the oldest node that is still in the ring
@@ -51,21 +55,17 @@ struct MapGrid {
     S16 front_height_q4_mm{0};
     S16 front_height_before_q4_mm{0};
 
-    U16 place_q6_bin{0};                        ///< rear contact
-    S32 travelled_q6_bin{0};                    ///< the same, never wrapped
-    S16 advance_q6_bin{0};                      ///< of the last cycle
-    S16 mean_q12_bin{slip::kMeanNoSlipQ12Bin};  ///< learned advance of a 6 cm cycle
+    U16 place_q6_bin{0};    ///< rear contact
+    S16 advance_q6_bin{0};  ///< of the last cycle
     U16 rough_q8_mm{slip::kInitialRoughQ8Mm};
     U16 match_cost_q10{slip::kInitialCostQ10};
-    uint8_t learned = 0, rough_count = 0;
+    uint8_t rough_count = 0;
     bool matched = false;  ///< in this cycle, with the two that follow
     U8 cost_q3{0};         ///< of the match, squared sigmas
     U16 added_variance_q12{0};
 
     U16 spread_q6_bin{0};    ///< root of the variance, rounded down
     U16 spread_rest_q12{0};  ///< what the root leaves of the variance
-    U32 variance_q12{0};     ///< of the position, (1/64 bin)^2
-    U32 drift_q12_bin{0};    ///< systematic part of the position uncertainty
 
     bool front_is_new = false;   ///< the front wheel got to new ground in this cycle
     U8 passed_bin{0};            ///< bins before this one have been passed by the front wheel

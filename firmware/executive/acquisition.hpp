@@ -1,13 +1,12 @@
 // acquisition.hpp - RawInputs from the board's parts.
 // Depends on   hal/board/rb85_parts.hpp (as a template argument), config/board_inputs.hpp,
-//              link/byte_ring.hpp, executive/wheel_counts.hpp.
-// Bounds       every wait is one of a driver, with a bound; about 17,000 T.
+//              executive/wheel_counts.hpp.
+// Bounds       every wait is one of a driver, with a bound; about 16,500 T.
 // Design note  docs/design/executive.md     Tests  tests/firmware/executive/acquisition_test.cpp
 #pragma once
 
 #include "firmware/config/board_inputs.hpp"
 #include "firmware/executive/wheel_counts.hpp"
-#include "firmware/link/byte_ring.hpp"
 #include "hal/chips/range_module.hpp"
 
 namespace rover {
@@ -56,17 +55,6 @@ void read_range(hal::RawInputs& inputs) {
         return;
     inputs.range_scan_count = last_scan_count;
     inputs.range_present = 0;
-}
-
-/// Bytes that have come over the link, oldest first; what does not fit waits in the ring.
-template <class Ring>
-void read_link(Ring& received, hal::RawInputs& inputs) {
-    uint8_t size = 0;
-    while (size < hal::kCommandBytesMax && !received.empty()) {
-        inputs.command[size] = received.pop();
-        ++size;
-    }
-    inputs.command_size = size;
 }
 
 }  // namespace rover

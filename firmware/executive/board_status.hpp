@@ -48,7 +48,7 @@ struct BoardStatus {
     uint16_t frames_dropped = 0;   ///< frames that found no room in the transmit ring
     uint8_t frames_refused = 0;    ///< uplink frames with a wrong check or size, modulo 2^8
     uint8_t trap_count = 0;        ///< modulo 2^8
-    ResetCause reset_cause = ResetCause::other;
+    ResetCause reset_cause = ResetCause::power_up;
     uint8_t warm = 0;  ///< 1: went on from a checkpoint
 };
 static_assert(sizeof(BoardStatus) == 22, "the same bytes on host and target");

@@ -12,10 +12,10 @@
 
 namespace rover {
 
-/// Which record is the newest. Lives in RAM, made anew by find_checkpoint().
+/// Which record is the newest. Lives in RAM, set by find_checkpoint() first of all.
 struct CheckpointPlace {
-    uint8_t slot = battery::kSlotB;  ///< offset of the newest
-    uint8_t sequence = 0;            ///< its number, modulo 2^8
+    uint8_t slot = 0;      ///< offset of the newest
+    uint8_t sequence = 0;  ///< its number, modulo 2^8
 };
 
 /// Writes a checkpoint into the slot that does not hold the newest one.
@@ -33,7 +33,7 @@ template <class Byte>
 [[gnu::noinline]] constexpr bool checkpoint_is_valid(const Byte* area, uint8_t slot) {
     const Byte* place = area + slot;
     return record_is_valid(place, sizeof(PoseRecord)) &&
-           uint8_t{place[kRecordContent + sizeof(PoseRecord) - 1]} == kPoseRecordFormat;
+           uint8_t{place[kRecordContent + sizeof(PoseRecord) - 1]} == kPoseFormat;
 }
 
 /// Finds the newest valid checkpoint. Its record is at area + newest.slot + kRecordContent.
@@ -43,7 +43,7 @@ template <class Byte>
 constexpr bool find_checkpoint(const Byte* area, CheckpointPlace& newest) {
     const uint8_t in_a = area[battery::kSlotA + 1];
     const uint8_t in_b = area[battery::kSlotB + 1];
-    const bool a_first = narrow_wrap_s8(sub_wrap(in_a, in_b)) > 0;
+    const bool a_first = narrow_wrap_s8(sub_wrap(in_b, in_a)) < 0;
     newest.slot = a_first ? battery::kSlotA : battery::kSlotB;
     if (!checkpoint_is_valid(area, newest.slot)) {
         newest.slot = bit_xor(newest.slot, battery::kOtherSlot);

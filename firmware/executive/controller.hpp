@@ -8,17 +8,17 @@
 #pragma once
 
 #include "firmware/executive/cycle.hpp"
+#include "firmware/link/telemetry.hpp"
 
 namespace rover {
 
-/// One control step, every 100 ms.
+/// One control step, every 100 ms. Telemetry is what controller.estimates is then.
 /// @param controller  changed in place; controller_reset() before the first step
 /// @param inputs      any values
-/// @param commands    what the vehicle is to do until the next step; telemetry bytes behind
-///                    telemetry_size stay as they were
+/// @param commands    what the vehicle is to do until the next step, but for telemetry
 /// @context           main line; not re-entrant
-constexpr void controller_step(Controller& controller, const hal::RawInputs& inputs,
-                               hal::Commands& commands) {
+constexpr void control_step(Controller& controller, const hal::RawInputs& inputs,
+                            hal::Commands& commands) {
     using namespace executive;
     Estimates& estimates = controller.estimates;
     const bool first = !controller.started;
@@ -50,6 +50,13 @@ constexpr void controller_step(Controller& controller, const hal::RawInputs& inp
     if (estimates.faults != 0) set_event(estimates, kEventSensorFault);
     report_map(controller);
     command(estimates, commands);
+}
+
+/// The same with the telemetry frame, whose bytes behind telemetry_size stay as they were.
+constexpr void controller_step(Controller& controller, const hal::RawInputs& inputs,
+                               hal::Commands& commands) {
+    control_step(controller, inputs, commands);
+    commands.telemetry_size = write_telemetry(controller.estimates, commands.telemetry);
 }
 
 /// The same, with what it returns all new.

@@ -60,11 +60,12 @@ struct Controller {
     int16_t rest_middle_q4_mm = 0, rest_front_q4_mm = 0;  ///< heights when the wheels stopped
 };
 
-/// Turns a controller whose bytes are all 0 into Controller{}: an image then needs no copy of it.
+/// Turns a controller whose bytes are all 0 into Controller{} but for the calibration, which
+/// use_calibration() gives: an image then needs no copy of it.
 constexpr void set_initial_values(Controller& controller) {
-    controller.calibration = hal::Calibration{};
     controller.scan.age_steps = kNoScanYet;
     controller.map.mean_q12_bin = slip::kMeanNoSlipQ12Bin;
+    controller.map.format = kPoseFormat;
     controller.map.rough_q8_mm = slip::kInitialRoughQ8Mm;
     controller.map.match_cost_q10 = slip::kInitialCostQ10;
     controller.past_due_q4_mm = -kCycleTravelQ4Mm;
@@ -81,20 +82,25 @@ constexpr bool is_valid(const hal::Calibration& calibration) {
            calibration.wheel_radius_q4_mm != 0;
 }
 
-/// Gives a controller that has not run yet its calibration record. One that is not valid is
-/// replaced by the nominal one and reported as kFaultCalibration in every step.
-constexpr void take_calibration(Controller& controller, const hal::Calibration& calibration) {
-    if (is_valid(calibration)) {
-        controller.calibration = calibration;
-    } else {
+inline constexpr hal::Calibration kNominalCalibration{};
+
+/// Gives a controller that has not run yet its calibration record.
+/// @param valid  false: it takes the nominal one, and reports kFaultCalibration in every step
+constexpr void use_calibration(Controller& controller, const hal::Calibration& calibration,
+                               bool valid) {
+    const hal::Calibration* used = &calibration;
+    controller.calibration_fault = 0;
+    if (!valid) {
+        used = &kNominalCalibration;
         controller.calibration_fault = kFaultCalibration;
     }
+    controller.calibration = *used;
 }
 
-/// Puts the controller into its state after reset, and take_calibration().
+/// Puts the controller into its state after reset, with a record if that is valid.
 constexpr void controller_reset(Controller& controller, const hal::Calibration& calibration) {
     controller = kControllerAtReset;
-    take_calibration(controller, calibration);
+    use_calibration(controller, calibration, is_valid(calibration));
 }
 
 }  // namespace rover

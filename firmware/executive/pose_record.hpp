@@ -1,45 +1,51 @@
 // pose_record.hpp - what a warm start takes over from before the reset, and how.
-// Depends on   executive/reporting.hpp (what position is reported), config/slip_tuning.hpp.
+// Depends on   executive/controller_state.hpp, config/slip_tuning.hpp.
 // Taken over   position, odometer, learned slip and their doubts. The map starts anew.
-// Layout       24 bytes without padding on host and target; docs/spec/memory-map.md (normative).
+// Layout       pose.hpp.
 // Design note  docs/design/executive.md     Tests  tests/firmware/executive/pose_record_test.cpp
 #pragma once
 
-#include "firmware/core/isqrt.hpp"
+#include "firmware/estimation/map_grid.hpp"
 #include "firmware/executive/controller_state.hpp"
 
 namespace rover {
 
-/// Another layout or meaning gets another number: a record of an older image is then refused.
-inline constexpr uint8_t kPoseRecordFormat = 1;
-
-struct PoseRecord {
-    int32_t travelled_q6_bin = 0;   ///< place of the last match
-    int32_t odometer_q4_mm = 0;     ///< wheel odometry
-    uint32_t variance_q12 = 0;      ///< of the position, (1/64 bin)^2
-    uint32_t drift_q12_bin = 0;     ///< systematic part of the position uncertainty
-    int16_t since_cycle_q4_mm = 0;  ///< odometry that no match has measured yet
-    int16_t turn_q4_mm = 0;         ///< turn since the last cycle
-    int16_t mean_q12_bin = slip::kMeanNoSlipQ12Bin;  ///< learned advance of a 6 cm cycle
-    uint8_t learned = 0;                             ///< cycles behind it, [0, slip::kLearnSteps]
-    uint8_t format = kPoseRecordFormat;
-};
+using PoseRecord = Pose;
 static_assert(sizeof(PoseRecord) == 24, "the same bytes on host and target");
+
+/// Puts into a pose what the estimator's has from outside: the odometer's state.
+constexpr void add_odometry(const Controller& controller, Pose& pose) {
+    pose.odometer_q4_mm = controller.odometer.travel_q4_mm;
+    pose.since_cycle_q4_mm = controller.since_cycle_q4_mm;
+    pose.turn_q4_mm = controller.odometer.turn_q4_mm;
+}
 
 /// What a warm start needs to go on from here.
 constexpr PoseRecord pose_record(const Controller& controller) {
-    const MapGrid& map = controller.map;
-    const Odometer& odometer = controller.odometer;
-    PoseRecord record;
-    record.travelled_q6_bin = map.travelled_q6_bin;
-    record.odometer_q4_mm = odometer.travel_q4_mm;
-    record.variance_q12 = map.variance_q12;
-    record.drift_q12_bin = map.drift_q12_bin;
-    record.since_cycle_q4_mm = controller.since_cycle_q4_mm;
-    record.turn_q4_mm = odometer.turn_q4_mm;
-    record.mean_q12_bin = map.mean_q12_bin;
-    record.learned = map.learned;
+    PoseRecord record = controller.map;
+    add_odometry(controller, record);
     return record;
+}
+
+/// Finds the root of the variance as the estimator follows it: a multiple of kSpreadStepQ6Bin, and
+/// what it leaves.
+constexpr void find_spread(MapGrid& map) {
+    uint16_t high = narrow_wrap_u16(shift_floor<16>(map.variance_q12));
+    uint16_t rest = narrow_wrap_u16(map.variance_q12);
+    uint16_t next = 64;  // (s + 8)^2 - s^2 is 16 s + 64
+    // Just below the square of kSpreadMaxQ6Bin, behind which the estimator does not look either.
+    constexpr uint16_t kHighMax = (1ul * slip::kSpreadMaxQ6Bin * slip::kSpreadMaxQ6Bin >> 16) - 1;
+    if (high > kHighMax) high = kHighMax;
+    for (;;) {
+        if (rest < next) {
+            if (high == 0) break;
+            --high;
+        }
+        rest = sub_wrap(rest, next);
+        next = add_wrap(next, uint16_t{128});
+    }
+    map.spread_q6_bin = sub_wrap(shift_floor<4>(next), uint16_t{4});
+    map.spread_rest_q12 = rest;
 }
 
 /// Goes on from a record: the next step reports the position and odometer of the record, plus what
@@ -50,16 +56,18 @@ constexpr PoseRecord pose_record(const Controller& controller) {
 constexpr void controller_resume(Controller& controller, const PoseRecord& record) {
     MapGrid& map = controller.map;
     Odometer& odometer = controller.odometer;
-    map.travelled_q6_bin = record.travelled_q6_bin;
-    map.variance_q12 = record.variance_q12;
-    map.spread_q6_bin = isqrt(map.variance_q12);
-    map.drift_q12_bin = add_sat(record.drift_q12_bin, uint32_t{slip::kDriftPerMoveQ12Bin});
-    map.mean_q12_bin = clamp(record.mean_q12_bin, slip::kMeanMinQ12Bin, slip::kMeanNoSlipQ12Bin);
-    map.learned = min(record.learned, slip::kLearnSteps);
-    odometer.travel_q4_mm = record.odometer_q4_mm;
-    odometer.turn_q4_mm = record.turn_q4_mm;
-    controller.since_cycle_q4_mm = record.since_cycle_q4_mm;
-    controller.past_due_q4_mm = sub_sat(record.since_cycle_q4_mm, kCycleTravelQ4Mm);
+    static_cast<Pose&>(map) = record;
+    find_spread(map);
+    slip::add_odometry_doubt(map, int16_t{slip::kDriftPerMoveQ12Bin / 16});
+    if (map.mean_q12_bin < slip::kMeanMinQ12Bin || map.mean_q12_bin > slip::kMeanNoSlipQ12Bin ||
+        map.learned > slip::kLearnSteps) {
+        map.mean_q12_bin = slip::kMeanNoSlipQ12Bin;
+        map.learned = 0;
+    }
+    odometer.travel_q4_mm = map.odometer_q4_mm;
+    odometer.turn_q4_mm = map.turn_q4_mm;
+    controller.since_cycle_q4_mm = map.since_cycle_q4_mm;
+    controller.past_due_q4_mm = sub_wrap(map.since_cycle_q4_mm, kCycleTravelQ4Mm);
 }
 
 }  // namespace rover

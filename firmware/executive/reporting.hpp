@@ -1,12 +1,11 @@
 // reporting.hpp - what the controller knows, put into estimates and commands.
-// Depends on   executive/controller_state.hpp, estimation/map_grid.hpp, link/telemetry.hpp.
-// Bounds       no loop but the six wheels and the telemetry frame.
+// Depends on   executive/controller_state.hpp, estimation/map_grid.hpp, hal/io.hpp.
+// Bounds       no loop but the six wheels.
 // Design note  docs/design/controller.md     Tests  tests/firmware/executive/reporting_test.cpp
 #pragma once
 
 #include "firmware/estimation/map_grid.hpp"
 #include "firmware/executive/controller_state.hpp"
-#include "firmware/link/telemetry.hpp"
 #include "hal/io.hpp"
 
 namespace rover::executive {
@@ -105,14 +104,13 @@ constexpr void report_attitude(Estimates& estimates, const Angles& angles,
     if (pose.side != Side::none) set_available(estimates, kAvailableLinkage);
 }
 
-/// Drive ahead; slower while an alarm is up. Telemetry carries all estimates. Steering, mast and
-/// lasers are left as they are: nothing commands them yet.
+/// Drive ahead; slower while an alarm is up. Steering, mast and lasers are left as they are:
+/// nothing commands them yet.
 constexpr void command(const Estimates& estimates, hal::Commands& commands) {
     const uint8_t alarms = static_cast<uint8_t>(kEventSlipAlarm | kEventSinkageAlarm);
     const bool caution = bit_and(estimates.events, alarms) != 0;
     const int8_t percent = caution ? kCautionPercent : kCruisePercent;
     for (int8_t& drive : commands.drive_percent) drive = percent;
-    commands.telemetry_size = write_telemetry(estimates, commands.telemetry);
 }
 
 }  // namespace rover::executive

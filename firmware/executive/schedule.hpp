@@ -24,18 +24,19 @@ constexpr bool step_is_due(const Schedule& schedule, uint16_t tick) {
 }
 
 /// A step begins now. Books lateness and sets when the next one is due.
-/// @return  false: it is late
+/// @param late  called when it begins behind its tick
 /// @cost    one round of the loop for each missed step
-inline bool begin_due_step(Schedule& schedule, uint16_t tick) {
-    const bool on_time = schedule.due_tick == tick;
-    schedule.due_tick = add_wrap(schedule.due_tick, kTicksPerStep);
-    if (on_time) return true;
-    schedule.late_steps = add_wrap(schedule.late_steps, uint16_t{1});
-    while (step_is_due(schedule, tick)) {
+template <class Late>
+void begin_due_step(Schedule& schedule, uint16_t tick, Late late) {
+    if (schedule.due_tick != tick) {
+        schedule.late_steps = add_wrap(schedule.late_steps, uint16_t{1});
+        late();
+    }
+    for (;;) {
         schedule.due_tick = add_wrap(schedule.due_tick, kTicksPerStep);
+        if (!step_is_due(schedule, tick)) return;
         schedule.missed_steps = add_wrap(uint16_t{schedule.missed_steps}, uint16_t{1});
     }
-    return false;
 }
 
 }  // namespace rover

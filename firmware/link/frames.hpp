@@ -62,31 +62,39 @@ struct FrameParser {
     constexpr void quiet() { taken = 0; }
 
     /// Takes one byte.
-    /// @return  true: it was the last of a good frame; type, size and payload are valid until the
-    ///          next call
-    [[gnu::noinline]] constexpr bool take(uint8_t byte) {
+    /// @param good  called when it was the last of a good frame; type, size and payload are valid
+    ///              until the next call
+    template <class Good>
+    [[gnu::noinline]] constexpr void take(uint8_t byte, Good good) {
         const uint8_t place = taken;
-        if (place < 2 && byte != (place == 0 ? Format::kSync0 : Format::kSync1)) {
-            taken = 0;
-            if (byte == Format::kSync0) taken = 1;
-            return false;
-        }
         frame[place] = byte;
-        const uint8_t count = add_wrap(place, uint8_t{1});
-        taken = count;
-        if (place == 3 && byte > Format::kPayloadMax) return refuse();
-        if (place < kFrameOverhead - 1 || count != add_wrap(size(), kFrameOverhead)) return false;
-        if (!check_is_right()) return refuse();
+        taken = add_wrap(place, uint8_t{1});
+        if (place < 2) {
+            const uint8_t sync = place == 0 ? Format::kSync0 : Format::kSync1;
+            if (byte != sync) taken = byte == Format::kSync0 ? 1 : 0;
+            return;
+        }
+        if (place == 2) return;
+        if (size() <= Format::kPayloadMax) {
+            if (taken != add_wrap(size(), kFrameOverhead)) return;
+            if (check_is_right()) {
+                taken = 0;
+                good();
+                return;
+            }
+        }
+        refused = add_wrap(refused, uint8_t{1});
         taken = 0;
-        return true;
+    }
+
+    /// The same. @return  true: it was the last of a good frame
+    constexpr bool take(uint8_t byte) {
+        bool is_good = false;
+        take(byte, [&is_good] { is_good = true; });
+        return is_good;
     }
 
 private:
-    constexpr bool refuse() {
-        refused = add_wrap(refused, uint8_t{1});
-        taken = 0;
-        return false;
-    }
     [[nodiscard]] constexpr bool check_is_right() const {
         const uint8_t covered = add_wrap(size(), uint8_t{2});
         const uint16_t crc = crc16_block<Byte>(kCrc16Start, frame + 2, covered);

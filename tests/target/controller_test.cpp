@@ -31,6 +31,7 @@ TEST(SetInitialValues, TurnsZeroBytesIntoAFreshController) {
     alignas(rover::Controller) std::array<unsigned char, sizeof(rover::Controller)> bytes = {};
     auto* controller = reinterpret_cast<rover::Controller*>(bytes.data());
     rover::set_initial_values(*controller);
+    rover::use_calibration(*controller, hal::Calibration{}, true);
     EXPECT_EQ(record_of(*controller).bytes(), record_of(rover::Controller{}).bytes());
 }
 

@@ -294,18 +294,26 @@ private:
         if (target == Register::a && subtract_from_borrow(item)) return;
         if (known_->in(target) == value) return drop();
         if (known_->find(value, set_of(target))) return move_from(target, value);
-        if (item.operand.kind == CodeOperand::Kind::number && dead(kSign)) {
-            const auto before = known_->constant_in(target);
-            const int32_t wanted = item.operand.offset & 0xFF;
-            if (before && ((*before + 1) & 0xFF) == wanted) {
-                return become(by_register(op::kInr, target));
-            }
-            if (before && ((*before - 1) & 0xFF) == wanted) {
-                return become(by_register(op::kDcr, target));
-            }
+        if (dead(kSign)) {
+            const int distance = distance_to(value, known_->in(target));
+            if (distance == 1) return become(by_register(op::kInr, target));
+            if (distance == -1) return become(by_register(op::kDcr, target));
         }
         join_halves(item, to);
     }
+
+    // By how much a byte is more than another, if that is known and 1 or -1; else 0.
+    [[nodiscard]] int distance_to(ValueNumber wanted, ValueNumber there) const {
+        const ValueInfo& to = known_->info(wanted);
+        const ValueInfo& from = known_->info(there);
+        using Kind = ValueInfo::Kind;
+        if (to.kind != from.kind || to.symbol != from.symbol) return 0;
+        const int32_t distance = to.number - from.number;
+        if (to.kind == Kind::symbol_high) return distance % 256 == 0 ? near_one(distance / 256) : 0;
+        if (to.kind != Kind::constant) return 0;
+        return near_one(static_cast<int8_t>(distance));
+    }
+    static int near_one(int32_t distance) { return distance == 1 || distance == -1 ? distance : 0; }
 
     // MVI A,0; SBB x is SBB A; SUB x if nobody wants the borrow: 0 or FFH, less x.
     bool subtract_from_borrow(const CodeItem& item) {

@@ -1,6 +1,8 @@
 // code_flow.cpp - see code_flow.hpp.
 #include "toolchain/codegen/code_flow.hpp"
 
+#include <algorithm>
+
 #include "toolchain/codegen/coder.hpp"
 #include "toolchain/isa/instruction_set.hpp"
 
@@ -8,6 +10,12 @@ namespace toolchain::codegen {
 
 bool is_instruction(const CodeItem& item) {
     return item.kind == CodeItem::Kind::instruction;
+}
+
+bool can_be_followed(const std::vector<CodeItem>& items) {
+    return std::none_of(items.begin(), items.end(), [](const CodeItem& item) {
+        return is_instruction(item) && (item.opcode == op::kPchl || (item.opcode & 0xC7) == 0xC7);
+    });
 }
 
 std::vector<Exits> find_exits(const std::vector<CodeItem>& items) {

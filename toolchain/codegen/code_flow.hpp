@@ -45,6 +45,8 @@ struct Exits {
     bool leaves = false;
 };
 [[nodiscard]] bool is_instruction(const CodeItem& item);
+/// Does control go on behind every instruction, or to labels, or back to the caller?
+[[nodiscard]] bool can_be_followed(const std::vector<CodeItem>& items);
 [[nodiscard]] std::vector<Exits> find_exits(const std::vector<CodeItem>& items);
 
 /// @param at_return  registers that the caller looks at

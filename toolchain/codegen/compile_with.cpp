@@ -294,7 +294,7 @@ private:
                 below = callee == CallGraph::kNoFunction ? routine_stack_.of(names_.of(site.symbol))
                                                          : activation(function, callee);
             }
-            most = std::max(most, site.pushed + kReturnAddress + below);
+            most = std::max(most, site.pushed + (site.jumps ? 0 : kReturnAddress) + below);
         }
         return most;
     }

@@ -6,10 +6,14 @@
 #include <map>
 #include <set>
 
+#include "toolchain/codegen/abi.hpp"
 #include "toolchain/codegen/cleanup.hpp"
+#include "toolchain/codegen/early_loads.hpp"
 #include "toolchain/codegen/homes.hpp"
 #include "toolchain/codegen/merge_tails.hpp"
 #include "toolchain/codegen/peephole.hpp"
+#include "toolchain/codegen/short_forms.hpp"
+#include "toolchain/codegen/tail_calls.hpp"
 #include "toolchain/isa/instruction_set.hpp"
 
 namespace toolchain::codegen {
@@ -48,12 +52,14 @@ public:
             const auto& ask = static_cast<const Generator*>(self)->options_.clobbers_of;
             return ask ? ask(symbol) : kAllRegisters;
         };
-        const auto jump_index = module_.symbol_ids.find("__jumpindex");
-        if (jump_index != module_.symbol_ids.end()) homes.jump_index = jump_index->second;
+        homes.jump_index = symbol_of("__jumpindex");
         lay_out(make_blocks(facts_, homes));
         improve(code_.items);
         clean();
         find_clobbers();
+        if (is_clean_ && facts_.function.interrupt < 0) {
+            jump_to_last_calls(code_.items, symbol_of(kCallThroughHl));
+        }
         count_stack();
         frame_stack_variables();
         frame_interrupt();
@@ -62,6 +68,11 @@ public:
     }
 
 private:
+    [[nodiscard]] uint32_t symbol_of(const char* name) const {
+        const auto found = module_.symbol_ids.find(name);
+        return found == module_.symbol_ids.end() ? kNone : found->second;
+    }
+
     static CodeItem label(uint32_t id) {
         CodeItem item = make_item(0, {CodeOperand::Kind::label, CodeOperand::Part::word, id, 0});
         item.kind = CodeItem::Kind::label;
@@ -105,9 +116,12 @@ private:
         clean_up(code_.items, code_.frame_bytes, at_return);
         improve(code_.items);
         if (options_.byte_cost > 0) {
+            load_early(code_.items, at_return);
+            improve(code_.items);
             merge_tails(code_.items, next_label_);
             improve(code_.items);
         }
+        take_short_forms(code_.items, at_return);
         is_clean_ = true;
     }
 
@@ -188,8 +202,9 @@ private:
                 item.operand.kind == CodeOperand::Kind::symbol) {
                 code_.calls.push_back({item.operand.id, kNone, depth});
             }
-            if (item.opcode == op::kJmp && item.operand.kind == CodeOperand::Kind::symbol) {
-                code_.calls.push_back({item.operand.id, kNone, depth});
+            if (instruction.flow == isa::Flow::jump &&
+                item.operand.kind == CodeOperand::Kind::symbol) {
+                code_.calls.push_back({item.operand.id, kNone, depth, true});
             }
         }
         for (CallSite& call : code_.calls) {
@@ -340,21 +355,7 @@ private:
         items.insert(items.end(), behind.begin(), behind.end());
         items.push_back(make_item(op::kRet));
         code_.items = std::move(items);
-        improve_jumps_only();
-    }
-
-    void improve_jumps_only() {
-        // A jump to the label right behind it.
-        std::vector<CodeItem>& items = code_.items;
-        for (std::size_t i = 0; i + 1 < items.size(); ++i) {
-            if (items[i].kind == CodeItem::Kind::instruction && items[i].opcode == op::kJmp &&
-                items[i + 1].kind == CodeItem::Kind::label &&
-                items[i].operand.kind == CodeOperand::Kind::label &&
-                items[i].operand.id == items[i + 1].operand.id) {
-                items.erase(items.begin() + static_cast<std::ptrdiff_t>(i));
-                return;
-            }
-        }
+        improve(code_.items);
     }
 
     // -- The frame -------------------------------------------------------------------------------

@@ -58,6 +58,7 @@ struct CallSite {
     uint32_t symbol = UINT32_MAX;     ///< function or routine
     uint32_t signature = UINT32_MAX;  ///< of a call through a pointer
     uint32_t pushed = 0;              ///< bytes on the stack then, without the return address
+    bool jumps = false;               ///< there is none: the callee returns in its caller's place
 };
 
 /// A function as machine code. What it does not touch keeps its value.

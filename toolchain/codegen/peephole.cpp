@@ -97,7 +97,7 @@ bool drop_labels(Items& items) {
            }) != 0;
 }
 
-// A jump over nothing; a jump over a jump.
+// A jump over nothing; a jump over a jump or a return.
 bool drop_jumps(Items& items) {
     for (std::size_t i = 0; i < items.size(); ++i) {
         if (!jumps_to_label(items[i])) continue;
@@ -113,6 +113,15 @@ bool drop_jumps(Items& items) {
         if (over) {
             items[i].opcode ^= 0x08;
             items[i].operand = items[next].operand;
+            items.erase(items.begin() + static_cast<std::ptrdiff_t>(next));
+            return true;
+        }
+        const bool over_return = next < items.size() && items[i].opcode != op::kJmp &&
+                                 is_instruction(items[next]) && items[next].opcode == op::kRet &&
+                                 target > next && next_instruction(items, next + 1) >= target;
+        if (over_return) {  // Jcc and Rcc differ in their low bits
+            items[i].opcode = static_cast<uint8_t>((items[i].opcode ^ 0x08) & 0xF8);
+            items[i].operand = {};
             items.erase(items.begin() + static_cast<std::ptrdiff_t>(next));
             return true;
         }

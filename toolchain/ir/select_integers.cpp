@@ -37,20 +37,34 @@ std::vector<int> signed_digits(uint64_t factor, std::size_t bits) {
     return digits;
 }
 
+std::vector<int> binary_digits(uint64_t factor, std::size_t bits) {
+    std::vector<int> digits;
+    for (std::size_t i = 0; i < bits; ++i) digits.push_back(static_cast<int>(factor >> i & 1));
+    return digits;
+}
+
 // T-states of the shifts and additions, roughly: DAD for words, MOV and RAL or ADC for other bytes.
 unsigned chain_cost(const std::vector<int>& digits, std::size_t size) {
     const unsigned shift = size == 2 ? 10 : static_cast<unsigned>(size) * 12;
-    const unsigned add = size == 2 ? 18 : static_cast<unsigned>(size) * 16;
+    const unsigned plus = size == 2 ? 12 : static_cast<unsigned>(size) * 16;
+    const unsigned minus = size == 2 ? 26 : plus;
     unsigned cost = 0;
     unsigned pending = 0;
     for (const int digit : digits) {
         if (digit != 0) {
-            cost += add + pending % 8 * shift;
+            cost += (digit > 0 ? plus : minus) + pending % 8 * shift;
             pending = 0;
         }
         ++pending;
     }
     return cost;
+}
+
+// Subtracting a word is longer than adding one.
+std::vector<int> best_digits(uint64_t factor, std::size_t size) {
+    const std::vector<int> few = signed_digits(factor, 8 * size);
+    const std::vector<int> positive = binary_digits(factor, 8 * size);
+    return chain_cost(positive, size) < chain_cost(few, size) ? positive : few;
 }
 
 }  // namespace
@@ -91,7 +105,7 @@ Bytes Selector::select_binary(const llvm::BinaryOperator& operation) {
 
 // Horner's scheme over the digits.
 Bytes Selector::multiply_by_constant(const Bytes& value, uint64_t factor) {
-    const std::vector<int> digits = signed_digits(factor, value.size() * 8);
+    const std::vector<int> digits = best_digits(factor, value.size());
     Bytes sum = builder_.constant(0, value.size());
     unsigned shift = 0;
     bool empty = true;
@@ -113,7 +127,7 @@ Bytes Selector::select_multiply(const llvm::BinaryOperator& operation) {
     if (const auto factor = builder_.value_of(right)) {
         constexpr unsigned kCostPerBit = 25;  // of the routines
         const auto bits = static_cast<unsigned>(right.size() * 8);
-        if (chain_cost(signed_digits(*factor, bits), right.size()) <= kCostPerBit * bits) {
+        if (chain_cost(best_digits(*factor, right.size()), right.size()) <= kCostPerBit * bits) {
             return multiply_by_constant(left, *factor);
         }
     }

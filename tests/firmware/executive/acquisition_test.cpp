@@ -66,17 +66,4 @@ TEST(ReadRange, TakesAScanAndKeepsTheCountWithoutOne) {
     }
 }
 
-TEST(ReadLink, TakesSixteenBytesAStepInOrder) {
-    rover::ByteRing<64> ring;
-    for (std::uint8_t i = 0; i < 40; ++i) ring.push(i);
-    hal::RawInputs inputs;
-    for (std::uint8_t expected = 0; const int size : {16, 16, 8, 0}) {
-        rover::read_link(ring, inputs);
-        ASSERT_EQ(inputs.command_size, size);
-        for (int i = 0; i < size; ++i)
-            EXPECT_EQ(inputs.command[static_cast<std::size_t>(i)], expected + i);
-        expected = static_cast<std::uint8_t>(expected + size);
-    }
-}
-
 }  // namespace

@@ -64,6 +64,7 @@ TEST(Checkpoint, BehindEveryStoreItIsTheOldOrTheNewOne) {
     for (int before = 1; before <= 520; ++before) {
         Area area;
         rover::CheckpointPlace place;
+        ASSERT_FALSE(rover::find_checkpoint(area.data(), place));
         for (int n = 1; n <= before; ++n) {
             if (n + 3 > before) rover::save_checkpoint(area.data(), place, record_of(n));
         }
@@ -97,6 +98,7 @@ TEST(Checkpoint, BehindEveryStoreItIsTheOldOrTheNewOne) {
 TEST(Checkpoint, ADamagedOneGivesWayToTheOneBefore) {
     Area area;
     rover::CheckpointPlace place;
+    ASSERT_FALSE(rover::find_checkpoint(area.data(), place));
     for (int n = 1; n <= 5; ++n) rover::save_checkpoint(area.data(), place, record_of(n));
     area[place.slot + 9U].value ^= 0x10;
     rover::PoseRecord found;
@@ -107,6 +109,7 @@ TEST(Checkpoint, ADamagedOneGivesWayToTheOneBefore) {
 TEST(Checkpoint, AnotherFormatIsNotTaken) {
     Area area;
     rover::CheckpointPlace place;
+    ASSERT_FALSE(rover::find_checkpoint(area.data(), place));
     rover::PoseRecord record = record_of(1);
     record.format = 2;
     rover::save_checkpoint(area.data(), place, record);
@@ -117,6 +120,7 @@ TEST(Checkpoint, AnotherFormatIsNotTaken) {
 TEST(Checkpoint, DroppedOnesAreGone) {
     Area area;
     rover::CheckpointPlace place;
+    ASSERT_FALSE(rover::find_checkpoint(area.data(), place));
     for (int n = 1; n <= 2; ++n) rover::save_checkpoint(area.data(), place, record_of(n));
     rover::drop_checkpoints(area.data());
     rover::PoseRecord found;

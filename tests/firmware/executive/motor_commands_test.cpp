@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace {
 
@@ -16,26 +17,40 @@ TEST(DriveDuty, IsTheNearestForEveryPercent) {
     }
 }
 
-TEST(DriveLatches, EveryWheelHasItsOwnDutyAndDirection) {
-    hal::Commands commands;
+/// The latches of a test, one kind for each: what they remember is their own.
+template <int kTest>
+struct Latches {
+    static inline std::string seen{};
+    static void direct_drive(std::uint8_t backward) { seen += "sign " + std::to_string(backward); }
+    static void put_drive(std::uint8_t duty) { seen += ", all " + std::to_string(duty); }
+    template <std::uint8_t kMotor>
+    static void put_drive(std::uint8_t duty) {
+        seen += ", " + std::to_string(kMotor) + ": " + std::to_string(duty);
+    }
+};
+
+TEST(DriveMotors, EveryWheelHasItsOwnDutyAndDirection) {
     const std::int8_t percents[6] = {100, -100, 0, 0, -1, 50};
-    for (std::size_t i = 0; i < 6; ++i) commands.drive_percent[i] = percents[i];
-    rover::DriveLatches latches;
-    rover::drive_latches(commands, latches);
-    const std::uint8_t duties[6] = {255, 255, 0, 0, 3, 128};
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(latches.duty[i], duties[i]) << i;
-    EXPECT_EQ(latches.backward, 0b010010);
+    rover::drive_motors<Latches<1>>(percents);
+    EXPECT_EQ(Latches<1>::seen, "sign 18, 0: 255, 1: 255, 2: 0, 3: 0, 4: 3, 5: 128");
 }
 
-TEST(DriveLatches, NothingIsRememberedFromTheLastStep) {
-    hal::Commands commands;
-    rover::DriveLatches latches;
-    for (std::int8_t& percent : commands.drive_percent) percent = -77;
-    rover::drive_latches(commands, latches);
-    commands = {};
-    rover::drive_latches(commands, latches);
-    for (const std::uint8_t duty : latches.duty) EXPECT_EQ(duty, 0);
-    EXPECT_EQ(latches.backward, 0);
+TEST(DriveMotors, OneWheelApartIsSeen) {
+    for (std::size_t apart = 0; apart < 6; ++apart) {
+        std::int8_t percents[6] = {-40, -40, -40, -40, -40, -40};
+        percents[apart] = 40;
+        EXPECT_FALSE(rover::is_straight(percents));
+        EXPECT_EQ(rover::backward_wheels(percents), 63U & ~(1U << apart));
+    }
+}
+
+TEST(DriveMotors, AllAlikeIsOneDuty) {
+    const std::int8_t back[6] = {-77, -77, -77, -77, -77, -77};
+    rover::drive_motors<Latches<2>>(back);
+    EXPECT_EQ(Latches<2>::seen, "sign 63, all 196");
+    const std::int8_t rest[6] = {};
+    rover::drive_motors<Latches<3>>(rest);
+    EXPECT_EQ(Latches<3>::seen, "sign 0, all 0");
 }
 
 }  // namespace

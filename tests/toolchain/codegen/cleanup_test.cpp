@@ -9,8 +9,10 @@
 #include "host_sim/cpu/flat_machine.hpp"
 #include "tests/toolchain/codegen/code_items.hpp"
 #include "tests/toolchain/codegen/coder_fixture.hpp"
+#include "toolchain/codegen/early_loads.hpp"
 #include "toolchain/codegen/merge_tails.hpp"
 #include "toolchain/codegen/peephole.hpp"
+#include "toolchain/codegen/short_forms.hpp"
 
 namespace {
 
@@ -316,9 +318,13 @@ TEST(Cleanup, RandomCodeComputesTheSame) {
         const auto wanted = static_cast<RegisterSet>(seed * 2654435761U >> 8 & 0xBFU);
         Items after = before;
         clean_up(after, kSlots, wanted);
+        improve(after);
+        load_early(after, wanted);
+        improve(after);
         uint32_t next_label = 100;
         merge_tails(after, next_label);
         improve(after);
+        take_short_forms(after, wanted);
         for (uint64_t state = 0; state < kStates; ++state) {
             const Result expected = run(before, seed + state);
             if (!expected.ended) continue;

@@ -42,14 +42,14 @@ TEST_F(GenerateTest, AnInterruptKeepsWhatItUses) {
     function.interrupt = 0x2C;  // RST 5.5
     (void)builder.processor(Opcode::port_in, 1, {}, 1);
     const FunctionCode code = make();
-    EXPECT_EQ(text_of(code.items), "PUSH PSW; IN p8; L:; POP PSW; EI; RET");
+    EXPECT_EQ(text_of(code.items), "PUSH PSW; IN p8; POP PSW; EI; RET");
     EXPECT_EQ(code.stack_bytes, 2U);
     EXPECT_EQ(code.clobbers, 0);
 }
 
 TEST_F(GenerateTest, AnInterruptThatUsesNothingKeepsNothing) {
     function.interrupt = 0x34;
-    EXPECT_EQ(text_of(make().items), "L:; EI; RET");
+    EXPECT_EQ(text_of(make().items), "EI; RET");
 }
 
 // RIM behind TRAP says whether interrupts were on before it; they stay off if they were off.
@@ -58,7 +58,7 @@ TEST_F(GenerateTest, TrapRestoresTheInterruptEnable) {
     builder.store(variable(), builder.load(variable(), 2, false), false);
     const FunctionCode code = make();
     EXPECT_EQ(text_of(code.items),
-              "PUSH PSW; RIM; PUSH PSW; PUSH H; LHLD a16; SHLD a16; L:; POP H; POP PSW; ANI d8; "
+              "PUSH PSW; RIM; PUSH PSW; PUSH H; LHLD a16; SHLD a16; POP H; POP PSW; ANI d8; "
               "JZ a16; POP PSW; EI; RET; L:; POP PSW; RET");
     EXPECT_EQ(code.stack_bytes, 6U);
     for (const CodeItem& item : code.items) {
