@@ -196,11 +196,14 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     if (!rom_is_intact(rom, size, check_at, [] { feed_watchdog(); })) set_fault(kFaultRom);
 }
 
-[[gnu::noinline]] void check_ram() {
+/// @param all  else only what the image uses: a warm start is short
+[[gnu::noinline]] void check_ram(bool all) {
     const auto wrong = [] { set_fault(kFaultRam); };
     test_address_lines(reinterpret_cast<volatile uint8_t*>(hal::rb85::kRamFirst), 0x4000, wrong);
     uint8_t page = narrow_wrap_u8(uint16_t{hal::rb85::kRamFirst / 256});
+    const uint8_t variables_end = narrow_wrap_u8(uint16_t{kRamInUseLast / 256 + 1});
     do {
+        if (!all && page == variables_end) page = narrow_wrap_u8(uint16_t{kStackFirst / 256});
         feed_watchdog();
         const uint16_t address = shift_left_wrap<8>(widen_u16(page));
         test_cells(reinterpret_cast<volatile uint8_t*>(address), 0, wrong);
@@ -252,7 +255,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     check_image();
     const bool warm = start_controller();
     status.warm = warm ? 1 : 0;
-    check_ram();
+    check_ram(!warm);
     set_stack_guard(stack_guard());
     Parts::TimerA::start<hal::rb85::kTickCounter, Parts::TimerA::Mode::rate_generator>(
         hal::rb85::kTickCount);

@@ -57,15 +57,15 @@ TEST(RomCheck, NoticesEveryWrongBit) {
 }
 
 TEST(RomCheck, AnImageThatWasNeverStampedFails) {
-    std::vector<std::uint8_t> image(65536, 1);
-    EXPECT_FALSE(rover::rom_is_intact(image.data(), 0, 50, [] {}));  // all of memory
+    std::vector<std::uint8_t> image(100, 1);
+    EXPECT_FALSE(rover::rom_is_intact(image.data(), 0, 50, [] {}));
     EXPECT_FALSE(rover::rom_is_intact(image.data(), 51, 50, [] {}));
 }
 
 TEST(RomCheck, SaysThatItIsAliveOften) {
     int calls = 0;
     EXPECT_TRUE(intact(image_of(12288, 6000), 6000, &calls));
-    EXPECT_EQ(calls, 12288);  // for each byte
+    EXPECT_EQ(calls, 6000 / 256 + (12288 - 6002) / 256);  // in front of each whole block
 }
 
 }  // namespace
