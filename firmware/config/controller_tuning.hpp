@@ -9,8 +9,8 @@ namespace rover {
 inline constexpr uint16_t kTicksPerStep = 10;  ///< 100 Hz ticks in a 10 Hz control step
 
 // -- Odometry ---------------------------------------------------------------------------------
-inline constexpr int16_t kCycleTravelQ4Mm = 960;        ///< 60.0 mm: one slip-and-sinkage cycle
-inline constexpr uint8_t kCycleSteps = 4;               ///< that a cycle takes: one part in each
+inline constexpr int16_t kCycleTravelQ4Mm = 960;  ///< 60.0 mm: one slip-and-sinkage cycle
+inline constexpr uint8_t kCycleSteps = 4;         ///< that a cycle takes: one part in each
 inline constexpr uint16_t kOverspeedQ4Mm = kCycleTravelQ4Mm / kCycleSteps;  ///< a step: 0.15 m/s
 inline constexpr int16_t kCycleOdometerMaxQ6Bin = 500;  ///< 195 mm: the estimator's odometry ends
 inline constexpr uint16_t kTachDisagreeMm = 15;         ///< in a cycle: a tachometer fault

@@ -69,12 +69,12 @@ inline constexpr uint8_t kSizeGainQ8[kSizeSteps + 1] = {
     15,  14,  13, 13, 12, 12, 11, 11, 10, 10, 9,  9,  9,  9,  8,  8};
 
 // -- Position uncertainty -------------------------------------------------------------------------
-inline constexpr uint16_t kSpreadStepQ6Bin = 8;           ///< 3.1 mm
-inline constexpr uint8_t kSpreadStepsMax = 2;             ///< a cycle
-inline constexpr uint16_t kSpreadMaxQ6Bin = 4000;         ///< 1.6 m; 16 times that fit in a word
-inline constexpr uint16_t kDriftPerLossQ12Bin = 8192;     ///< 5 cm for each loss of lock
-inline constexpr uint16_t kDriftPerMoveQ12Bin = 4096;     ///< 2.5 cm when moved by hand
-inline constexpr uint16_t kDriftPerTurnQ12Bin = 819;      ///< 0.5 cm per turning cycle
+inline constexpr uint16_t kSpreadStepQ6Bin = 8;        ///< 3.1 mm
+inline constexpr uint8_t kSpreadStepsMax = 2;          ///< a cycle
+inline constexpr uint16_t kSpreadMaxQ6Bin = 4000;      ///< 1.6 m; 16 times that fit in a word
+inline constexpr uint16_t kDriftPerLossQ12Bin = 8192;  ///< 5 cm for each loss of lock
+inline constexpr uint16_t kDriftPerMoveQ12Bin = 4096;  ///< 2.5 cm when moved by hand
+inline constexpr uint16_t kDriftPerTurnQ12Bin = 819;   ///< 0.5 cm per turning cycle
 inline constexpr uint16_t kBendInformedQ3 = 19;  ///< below: 0.85 of the prior's variance or more
 /// Variance 2^14 / bend of a parabola in quarters of (1/64 bin)^2, by sixteenths of the bend.
 inline constexpr uint8_t kVarianceQ10[32] = {

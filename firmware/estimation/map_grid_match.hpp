@@ -103,9 +103,8 @@ constexpr U16 mul_nibble(U16 word, U8 nibble) {
         const U16 after_q4_mm = narrow_wrap_u16(node_height(map, add_wrap(rear, ahead)));
         const S16 rise = narrow_wrap_s16(sub_wrap(after_q4_mm, before_q4_mm));
         before_q4_mm = after_q4_mm;
-        const U16 misfit_q7_mm =
-            sub_wrap(shift_left_wrap<3>(seen),
-                     mul_nibble(narrow_wrap_u16(halve_floor(rise)), fraction_q4));
+        const U16 misfit_q7_mm = sub_wrap(
+            shift_left_wrap<3>(seen), mul_nibble(narrow_wrap_u16(halve_floor(rise)), fraction_q4));
         const U8 steps = misfit_steps(misfit_q7_mm, sigma_q3_mm);
         out[0] = average(match.last, steps);
         match.last = steps;
@@ -124,8 +123,7 @@ constexpr U16 mul_nibble(U16 word, U8 nibble) {
     const U8 tie = bit_and(narrow_wrap_u8(shift_floor<1>(off_q6_bin)), U8{1});
     const S8 off = halve_floor(add_wrap(off_q6_bin, narrow_wrap_s8(tie)));  // [-16, 16]
     const U8 vertex_q3 = square_q3(add_wrap(shift_floor<1>(abs_u8(off)), U8{128}));
-    U8 prior_q3 =
-        sub_wrap(add_wrap(vertex_q3, U8{128}), narrow_wrap_u8(shift_left_wrap<2>(off)));
+    U8 prior_q3 = sub_wrap(add_wrap(vertex_q3, U8{128}), narrow_wrap_u8(shift_left_wrap<2>(off)));
     U8 step = add_wrap(narrow_wrap_u8(off), U8{256 + 8 - 64});
     U8* place = match.steps + 1;
     U8 least{255};

@@ -108,8 +108,8 @@ constexpr bool ground_at_front(const MapGrid& map, U16 split, S16& ground_q4_mm)
             const U16 span = sub_wrap(sample_place(bin, fraction), map.behind_place_q8_bin);
             const U16 along = sub_wrap(split, map.behind_place_q8_bin);
             if (span >= U16{kSpanMaxQ8Bin}) return false;
-            ground_q4_mm = lerp_at(map.behind_height_q4_mm,
-                                   map.ahead.height_q4_mm[ring_index(bin)], ratio_q8(along, span));
+            ground_q4_mm = lerp_at(map.behind_height_q4_mm, map.ahead.height_q4_mm[ring_index(bin)],
+                                   ratio_q8(along, span));
             return true;
         }
         bin = add_wrap(bin, U8{1});

@@ -44,7 +44,8 @@ constexpr void begin_step(Controller& controller, const hal::RawInputs& inputs) 
     return narrow_wrap_s16(narrow_wrap_u16(shift_floor<16>(mul_wide(twice, controller.share_q15))));
 }
 
-/// 1/64 bin to mm Q4, rounded towards zero. Less than 5 m either way: a cycle's odometry is cut at one.
+/// 1/64 bin to mm Q4, rounded towards zero. Less than 5 m either way: a cycle's odometry is cut at
+/// one.
 constexpr int16_t advance_q4_mm(int16_t q6_bin) {
     const uint16_t size = q4_mm_from_q6_bin(abs_u16(q6_bin));
     return q6_bin < 0 ? neg_wrap(narrow_wrap_s16(size)) : narrow_wrap_s16(size);

@@ -112,8 +112,8 @@ public:
     }
     [[nodiscard]] std::optional<SlipLevels> slip_levels() const override {
         return SlipLevels{.match_cost = map_.match_cost_q10 / 1024.0,
-                          .slip_percent = static_cast<double>(rover::slip::slip_percent(
-                              rover::slip::learned_share_q15(map_))),
+                          .slip_percent = static_cast<double>(
+                              rover::slip::slip_percent(rover::slip::learned_share_q15(map_))),
                           .lost_lock = map_.lost_lock,
                           .slip_alarm = map_.slip_alarm,
                           .sinkage_alarm = map_.sinkage_alarm};
