@@ -153,7 +153,8 @@ constexpr S8 slip_percent(U16 share_q15) {
 /// One slip-and-sinkage cycle, due every 6.0 cm of wheel odometry: all parts.
 /// @param map    changed in place
 /// @param input  any values; distances out of range are treated as no linkage
-constexpr void map_grid_step(MapGrid& map, MapGridInput input) {
+constexpr void map_grid_step(MapGrid& map, const MapGridInput& measured) {
+    MapGridInput input = measured;
     map_grid_match(map, input);
     map_grid_extend(map, input);
     map_grid_sinkage(map, input.motion);

@@ -11,11 +11,9 @@ endif()
 
 set(device -mmcu=atmega2560)
 set(objects)
-# At -O2: at -Os clang 19 makes AVR code that finds a sinkage of 0 where -O1, -O2, the native build
-# (also under the sanitizers) and the 8085 image at every level agree.
 foreach(source probe_avr.cpp ${GROUPS})
   set(object ${OUT}/${source}.avr.o)
-  run(ignored ${CLANG} --target=avr ${device} -std=c++20 -O2 -ffreestanding
+  run(ignored ${CLANG} --target=avr ${device} -std=c++20 -Os -ffreestanding
     -fno-exceptions -fno-rtti -Wall -Wextra -Werror -I${ROOT} -I${ROOT}/firmware/config/native -I${CMAKE_CURRENT_LIST_DIR}
     -c ${CMAKE_CURRENT_LIST_DIR}/${source} -o ${object})
   list(APPEND objects ${object})
