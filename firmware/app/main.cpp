@@ -23,6 +23,7 @@
 #include "firmware/link/byte_ring.hpp"
 #include "firmware/link/calibration_frame.hpp"
 #include "firmware/link/frames.hpp"
+#include "firmware/loader/layout.hpp"
 #include "hal/board/rb85_parts.hpp"
 #include "hal/target/i8085.hpp"
 
@@ -181,6 +182,7 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     Parts::PpiA::set_mode<hal::rb85::kPpiAMode>();
     motors_off();
     Parts::PpiB::set_mode<hal::rb85::kPpiBMode>();
+    Parts::PpiB::set_c<hal::rb85::kTrapGateBit>();
     Parts::TimerA::start<hal::rb85::kBaudCounter, Parts::TimerA::Mode::square_wave>(
         hal::rb85::kBaudCount);
     Parts::TimerB::start_all_pulses();
@@ -192,8 +194,12 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     const volatile uint8_t* at = identity_bytes() + __builtin_offsetof(Identity, image_size);
     const uint16_t size = *reinterpret_cast<const volatile uint16_t*>(at);
     const auto check_at = static_cast<uint16_t>(reinterpret_cast<uintptr_t>(at) + 2);
-    const auto* const rom = reinterpret_cast<const volatile uint8_t*>(hal::rb85::kEepromFirst);
-    if (!rom_is_intact(rom, size, check_at, [] { feed_watchdog(); })) set_fault(kFaultRom);
+    constexpr uint16_t kFirst = loader::kApplicationFirst;
+    const auto* const rom = reinterpret_cast<const volatile uint8_t*>(kFirst);
+    if (size < kFirst || !rom_is_intact(rom, sub_wrap(size, kFirst), sub_wrap(check_at, kFirst),
+                                        [] { feed_watchdog(); })) {
+        set_fault(kFaultRom);
+    }
 }
 
 /// @param all  else only what the image uses: a warm start is short
@@ -378,8 +384,10 @@ struct ToSend {
 [[gnu::noinline]] AckResult prepare_restart() {
     if (uplink.size() != 1) return AckResult::wrong_size;
     const uint8_t kind = uplink.payload()[0];
-    if (kind > static_cast<uint8_t>(RestartKind::cold)) return AckResult::refused;
-    const RunMark mark = kind != 0 ? RunMark::cold_restart : RunMark::warm_restart;
+    if (kind > static_cast<uint8_t>(RestartKind::loader)) return AckResult::refused;
+    RunMark mark = RunMark::warm_restart;
+    if (kind == static_cast<uint8_t>(RestartKind::cold)) mark = RunMark::cold_restart;
+    if (kind == static_cast<uint8_t>(RestartKind::loader)) mark = RunMark::loader;
     battery_area()[battery::kMark] = static_cast<uint8_t>(mark);
     restarting = true;
     return AckResult::done;

@@ -26,6 +26,7 @@ enum class RunMark : uint8_t {
     running = 0x52,       ///< the main loop
     warm_restart = 0x57,  ///< waits for the watchdog, as the ground asked
     cold_restart = 0x43,  ///< the same, and the checkpoints are to be dropped
+    loader = 0x4C,        ///< the same, and the loader is to stay; it makes a warm restart of it
 };
 
 /// A record: state, sequence number, content, CRC-16 of sequence number and content (low byte

@@ -30,7 +30,7 @@ enum class UplinkType : uint8_t {
     calibration = 0x03,  ///< a calibration record, used from the next reset on
     restart = 0x04,      ///< payload: a RestartKind
 };
-enum class RestartKind : uint8_t { warm = 0, cold = 1 };
+enum class RestartKind : uint8_t { warm = 0, cold = 1, loader = 2 };
 
 /// To the ground.
 enum class DownlinkKind : uint8_t {

@@ -82,6 +82,7 @@ inline constexpr uint8_t kPpiBMode = 0x93;        ///< port A: range data; port 
 inline constexpr uint8_t kRangeAckBit = 0x01;     ///< port C
 inline constexpr uint8_t kRangeStrobeBit = 0x10;  ///< port C
 inline constexpr uint8_t kRangeSelectBit = 0x20;  ///< port C
+inline constexpr uint8_t kTrapGateBit = 0x40;     ///< port C: 1 lets TRAP through
 
 // -- Analog inputs: multiplexer input n is hal::AdcChannel n
 // ------------------------------------------------

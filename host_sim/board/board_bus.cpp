@@ -132,7 +132,8 @@ void BoardBus::follow_interrupt_lines(uint64_t t) {
     set_pin(s_.cpu, Pin::rst75, s_.timers[0].output(rb85::kTickCounter), t);
     set_pin(s_.cpu, Pin::rst65, s_.usart.rx_ready_pin(), t);
     set_pin(s_.cpu, Pin::rst55, s_.usart.tx_ready_pin(), t);
-    set_pin(s_.cpu, Pin::trap, s_.undervoltage || s_.bumper, t);
+    const bool gate = (driven(s_.ppis[1], Port::c) & rb85::kTrapGateBit) != 0;
+    set_pin(s_.cpu, Pin::trap, gate && (s_.undervoltage || s_.bumper), t);
 }
 
 void BoardBus::handle_event() {

@@ -8,11 +8,15 @@
 #include <span>
 #include <vector>
 
-#include "hal/board/rb85.hpp"
+#include "firmware/loader/layout.hpp"
+#include "host_sim/image/board_image.hpp"
 #include "host_sim/image/checksum.hpp"
 
 namespace host_sim {
 namespace {
+
+constexpr std::size_t kFirst = rover::loader::kApplicationFirst;
+constexpr std::size_t kEnd = rover::loader::kRecordPage;
 
 constexpr const char* kStampIt = "build it with the project's own rule, which stamps it";
 
@@ -36,11 +40,11 @@ std::string version_text(ImageVersion version) {
     return fmt::format("{}.{}.{}", version.major, version.minor, version.patch);
 }
 
-/// Where the only block is.
+/// Where the only block is. The loader in front knows the magic as well.
 uint16_t find_block(const Image& image) {
     std::vector<std::size_t> found;
     const auto end = image.bytes.end();
-    for (auto at = image.bytes.begin();; ++at) {
+    for (auto at = image.bytes.begin() + kFirst;; ++at) {
         at = std::search(at, end, kIdentityMagic.begin(), kIdentityMagic.end(),
                          [](uint8_t byte, char letter) { return byte == uint8_t(letter); });
         if (at == end) break;
@@ -85,14 +89,18 @@ std::string vehicle_name(const Image& image, std::size_t block) {
     return {first, end};
 }
 
-/// Highest occupied address + 1.
+/// Highest occupied address of the application + 1.
 uint16_t size_of(const Image& image) {
     check_range(image, {hal::rb85::kEepromFirst, hal::rb85::kEepromLast}, "the EEPROM");
-    if (!image.present[hal::rb85::kEepromFirst]) {
-        refuse(image, "has nothing at address 0000H, where the processor starts",
-               "link the program for the EEPROM at 0000H-7FFFH");
+    if (!image.present[kFirst]) {
+        refuse(image,
+               fmt::format("has nothing at address {:04X}H, where the loader starts it", kFirst),
+               fmt::format("link the program for {:04X}H-{:04X}H with its vectors at {:04X}H",
+                           kFirst, kEnd - 1, kFirst));
     }
-    return static_cast<uint16_t>(image.extent()->last + 1);
+    std::size_t end = kEnd;
+    while (!image.present[end - 1]) --end;
+    return static_cast<uint16_t>(end);
 }
 
 uint16_t crc_of(const Image& image, std::size_t block, std::size_t size) {
@@ -100,7 +108,7 @@ uint16_t crc_of(const Image& image, std::size_t block, std::size_t size) {
                                image.bytes.begin() + static_cast<std::ptrdiff_t>(size));
     bytes[block + IdentityOffset::image_crc] = 0;
     bytes[block + IdentityOffset::image_crc + 1] = 0;
-    return crc16_ccitt_false(bytes);
+    return crc16_ccitt_false(std::span(bytes).subspan(kFirst));
 }
 
 ImageIdentity block_at(const Image& image, uint16_t block) {
@@ -137,7 +145,7 @@ ImageIdentity read_identity(const Image& image) {
     const std::size_t block_end = identity.address + IdentityOffset::end;
     if (identity.image_size < block_end) {
         refuse(image,
-               fmt::format("says it has {} bytes, but its identity block ends at {:04X}H",
+               fmt::format("says it ends at {:04X}H, but its identity block does at {:04X}H",
                            identity.image_size, block_end),
                kStampIt);
     }
@@ -146,13 +154,13 @@ ImageIdentity read_identity(const Image& image) {
     for (std::size_t at = identity.image_size; at <= last; ++at) {
         if (image.bytes[at] == kErasedByte) continue;
         refuse(image,
-               fmt::format("says it has {} bytes, but there is one at {:04X}H", identity.image_size,
+               fmt::format("says it ends at {:04X}H, but there is a byte at {:04X}H", identity.image_size,
                            at),
                "it was changed after it was stamped; build it anew");
     }
     if (last + 1 < identity.image_size) {
         refuse(image,
-               fmt::format("says it has {} bytes, but ends at {:04X}H", identity.image_size, last),
+               fmt::format("says it ends at {:04X}H, but does at {:04X}H", identity.image_size, last),
                "the file is cut off; copy or build it anew");
     }
     const uint16_t crc = crc_of(image, identity.address, identity.image_size);
@@ -162,7 +170,12 @@ ImageIdentity read_identity(const Image& image) {
                            identity.image_crc),
                "it was changed after it was stamped; build it anew");
     }
+    check_boot_record(image, identity);
     return identity;
+}
+
+std::size_t byte_count(const ImageIdentity& identity) {
+    return identity.image_size - kFirst;
 }
 
 std::string describe_sources(const ImageIdentity& identity) {
@@ -172,7 +185,7 @@ std::string describe_sources(const ImageIdentity& identity) {
 
 std::string describe(const ImageIdentity& identity) {
     return fmt::format("{} vehicle {}, {} bytes, CRC-16 {:04X}H", describe_sources(identity),
-                       identity.vehicle, identity.image_size, identity.image_crc);
+                       identity.vehicle, byte_count(identity), identity.image_crc);
 }
 
 std::optional<ImageVersion> parse_version(std::string_view text) {

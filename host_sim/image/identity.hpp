@@ -1,5 +1,6 @@
 // identity.hpp - the identity block of a program image: found, checked, filled in after linking.
-// Depends on   host_sim/image/image.hpp.
+// Depends on   host_sim/image/image.hpp, firmware/loader/layout.hpp: the application's part of the
+//              EEPROM is what is checked; the loader beside it is not part of an image's identity.
 // Normative    docs/design/image.md, "The identity block". The firmware declares it with zeros as
 //              `rover_identity`; what the linker cannot know is stamped in.
 #pragma once
@@ -40,23 +41,26 @@ struct ImageIdentity {
     uint16_t address = 0;  ///< of the block
     ImageVersion version;
     uint32_t source_hash = 0;  ///< of the firmware's sources; the host build of them has the same
-    uint16_t image_size = 0;   ///< highest occupied address + 1
-    uint16_t image_crc = 0;    ///< CRC-16 of bytes 0 to image_size - 1, its own field taken as 0
+    uint16_t image_size = 0;   ///< it ends before this address
+    uint16_t image_crc = 0;    ///< CRC-16 from kApplicationFirst on, its own field taken as 0
     std::string vehicle;
 
     bool operator==(const ImageIdentity&) const = default;
 };
 
+/// Bytes of the application, gaps included.
+[[nodiscard]] std::size_t byte_count(const ImageIdentity& identity);
+
 /// Fills version, hash, size and CRC into the block that the program holds. The vehicle is the
 /// program's own.
 /// @return  what the image is now
-/// @errors  ImageError: no block or several, another format, nothing at address 0, bytes beyond the
-///          EEPROM, a vehicle name that is not text
+/// @errors  ImageError: no block or several, another format, nothing at kApplicationFirst, bytes
+///          beyond the EEPROM, a vehicle name that is not text
 ImageIdentity stamp_identity(Image& image, ImageVersion version, uint32_t source_hash);
 
 /// The identity of a stamped image.
-/// @errors  ImageError: as stamping; also when the image was never stamped or size or CRC do not
-/// fit
+/// @errors  ImageError: as stamping; also when the image was never stamped, size or CRC do not fit,
+///          or the boot record beside it is not its own
 [[nodiscard]] ImageIdentity read_identity(const Image& image);
 
 /// "rover85 0.1.0 sources 1a2b3c4d": as the host build says it of itself.

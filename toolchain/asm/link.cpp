@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <unordered_set>
 #include <utility>
@@ -17,6 +18,7 @@ namespace {
 
 constexpr uint8_t kJmp = 0xC3;
 constexpr std::size_t kLargestShown = 5;
+constexpr std::array<uint16_t, 4> kInterruptLines = {0x24, 0x2C, 0x34, 0x3C};
 
 [[noreturn]] void fail(const std::string& text) {
     throw Error({Diagnostic{{}, 0, text}});
@@ -27,18 +29,31 @@ std::string range_text(uint32_t first, uint32_t size) {
                      : fmt::format("{:04X}H-{:04X}H", first, first + size - 1);
 }
 
-/// Names for the vectors, as sections and as labels.
-Module vector_module(const std::map<uint16_t, std::string>& vectors) {
+/// A JMP with a name, as section and as label.
+Section vector_section(uint32_t address, LabelKind kind, const Operand& target) {
+    if (address >= kMemorySize) {
+        fail(fmt::format("a vector goes beyond 0FFFFH, to {:X}H: choose a lower base", address));
+    }
+    Section section;
+    section.name = section.function = fmt::format("__vector_{:04X}", address);
+    section.address = static_cast<uint16_t>(address);
+    section.items = {label(section.name, kind), instruction(kJmp, target)};
+    return section;
+}
+
+Module vector_module(const std::map<uint16_t, std::string>& vectors, const LinkOptions& options) {
     Module module;
     module.name = "vectors";
     for (const auto& [address, target] : vectors) {
-        Section section;
-        section.name = section.function = fmt::format("__vector_{:04X}", address);
-        section.address = address;
-        section.items = {
-            label(section.name, address == 0 ? LabelKind::function : LabelKind::interrupt_entry),
-            instruction(kJmp, {target})};
-        module.sections.push_back(std::move(section));
+        const LabelKind kind = address == 0 ? LabelKind::function : LabelKind::interrupt_entry;
+        module.sections.push_back(
+            vector_section(uint32_t{options.vector_base} + address, kind, {target}));
+    }
+    if (!options.forward_to) return module;
+    for (const uint16_t address : kInterruptLines) {
+        const uint32_t target = uint32_t{*options.forward_to} + address;
+        module.sections.push_back(vector_section(
+            address, LabelKind::interrupt_entry, Operand{.offset = static_cast<int32_t>(target)}));
     }
     return module;
 }
@@ -54,7 +69,7 @@ public:
     Program run() {
         auto vectors = options_.vectors;
         if (options_.startup) vectors.emplace(0, options_.startup->name);
-        modules_.push_back(vector_module(vectors));
+        modules_.push_back(vector_module(vectors, options_));
         keep_reachable();
         place_fixed();
         place_ram();

@@ -25,7 +25,11 @@ struct LinkOptions {
     /// A JMP to a symbol at an address: 0000H reset, 0024H TRAP, 002CH, 0034H, 003CH, 8 n for RST
     /// n.
     std::map<uint16_t, std::string> vectors{};
-    /// Makes a start-up, with a JMP to it at 0000H unless `vectors` has one.
+    /// Where the vectors stand, instead of at 0000H: for a program behind a loader, which forwards.
+    uint16_t vector_base = 0;
+    /// The loader's side: TRAP and RST 5.5 to 7.5 go on to the vectors of a program with this base.
+    std::optional<uint16_t> forward_to{};
+    /// Makes a start-up, with a JMP to it at `vector_base` unless `vectors` has one for 0000H.
     std::optional<StartupOptions> startup{};
 };
 

@@ -27,6 +27,28 @@ function(rover_need_compiler)
   endif()
 endfunction()
 
+# The loader, in its two parts, which stands in front of every image. Addresses: layout.hpp in
+# firmware/loader, which a test compares with what is linked.
+set(ROVER_LOADER_DIRECTORY ${PROJECT_BINARY_DIR}/firmware/loader)
+function(rover_loader)
+  rover_need_compiler()
+  file(MAKE_DIRECTORY ${ROVER_LOADER_DIRECTORY})
+  set(start_options --rom 0-1FFH --ram 0FE00H-0FEFFH --forward 0C00H)
+  set(program_options --rom 0E000H-0E9FFH --ram 0EA00H-0EFFEH --vectors 0E000H)
+  set(outputs "")
+  foreach(part start program)
+    set(result ${ROVER_LOADER_DIRECTORY}/${part})
+    add_custom_command(OUTPUT ${result}.hex
+      COMMAND i85cc -Os --small-runtime -I. -Ifirmware/config/native ${${part}_options}
+        -o ${result}.hex firmware/loader/${part}.cpp
+      DEPENDS ${ROVER_FIRMWARE_SOURCES} i85cc
+      WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+      COMMENT "Compiling the loader: ${part}" VERBATIM)
+    list(APPEND outputs ${result}.hex)
+  endforeach()
+  add_custom_target(rover85_loader ALL DEPENDS ${outputs})
+endfunction()
+
 function(rover_image name)
   cmake_parse_arguments(arg "" "DIRECTORY" "SOURCES;OPTIONS" ${ARGN})
   rover_need_compiler()
@@ -51,12 +73,16 @@ function(rover_image name)
     list(APPEND relative ${path})
   endforeach()
   add_custom_command(OUTPUT ${outputs}
-    COMMAND i85cc -Os -I. -Ifirmware/config/native ${arg_OPTIONS} -o ${linked}/${name}.hex
-      ${relative}
+    COMMAND i85cc -Os -I. -Ifirmware/config/native --rom 0C00H-7FBFH --vectors 0C00H
+      ${arg_OPTIONS} -o ${linked}/${name}.hex ${relative}
     COMMAND rover_stamp ${linked}/${name}.hex -o ${arg_DIRECTORY}/${name}.hex
       --image-version ${PROJECT_VERSION} --sources ${FIRMWARE_SOURCE_HASH}
+      --loader-start ${ROVER_LOADER_DIRECTORY}/start.hex
+      --loader-program ${ROVER_LOADER_DIRECTORY}/program.hex
     DEPENDS ${sources} ${ROVER_FIRMWARE_SOURCES} i85cc rover_stamp
+      ${ROVER_LOADER_DIRECTORY}/start.hex ${ROVER_LOADER_DIRECTORY}/program.hex
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     COMMENT "Compiling the image ${name}" VERBATIM)
   add_custom_target(${name}_image ALL DEPENDS ${outputs})
+  add_dependencies(${name}_image rover85_loader)
 endfunction()

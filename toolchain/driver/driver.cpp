@@ -293,6 +293,8 @@ assembly::LinkOptions link_options(const Request& request, const codegen::Compil
     options.ram = request.ram;
     options.roots = roots;
     options.vectors = compiled.vectors;
+    options.vector_base = request.vector_base;
+    options.forward_to = request.forward_to;
     options.startup = assembly::StartupOptions{"main", compiled.constructors};
     const uint32_t known = compiled.stack_known ? compiled.stack_bytes : kStackBytesOfRecursion;
     options.stack_size = request.stack_bytes.value_or(known);

@@ -30,6 +30,8 @@ beside it OUT.bin, .map, .lst, .sym. Needs clang-19 (on PATH, or I85CC_CLANG).
   --rom FIRST-LAST     addresses of ROM (default 0-7FFFH)
   --ram FIRST-LAST     addresses of RAM (default 8000H-FEFFH)
   --stack BYTES        kept for the stack (default: the worst depth, exactly)
+  --vectors ADDRESS    vectors stand there instead of at 0, for a program behind a loader
+  --forward ADDRESS    a loader: TRAP and RST 5.5 to 7.5 go to the vectors of a program there
   -I -D -U -include -std= -W... -f...   as usual, passed on to clang
 
   --emit=llvm|mir|asm  print an inner stage instead; -o FILE: into FILE
@@ -78,6 +80,12 @@ AddressRange parse_range(const std::string& option, const std::string& text) {
         fmt::format("{}: '{}' is not a range of addresses: write FIRST-LAST, such as "
                     "8000H-0FEFFH",
                     option, text));
+}
+
+uint16_t parse_address(const std::string& option, const std::string& text) {
+    if (const auto address = parse_number(text)) return static_cast<uint16_t>(*address);
+    throw UsageError(
+        fmt::format("{}: '{}' is not an address: write it such as 0800H", option, text));
 }
 
 class Parser {
@@ -177,6 +185,10 @@ private:
             if (!request.stack_bytes) {
                 throw UsageError(fmt::format("--stack: '{}' is not a number of bytes", *stack));
             }
+        } else if (const auto base = value_of(argument, "--vectors")) {
+            request.vector_base = parse_address("--vectors", *base);
+        } else if (const auto behind = value_of(argument, "--forward")) {
+            request.forward_to = parse_address("--forward", *behind);
         } else if (const auto stage = value_of(argument, "--emit")) {
             options_.emit = parse_stage(*stage);
         } else {

@@ -1,4 +1,5 @@
-// rover_stamp - fills the identity block of a linked image; the build runs it behind i85cc.
+// rover_stamp - fills the identity block of a linked image and adds the loader in front of it; the
+//              build runs it behind i85cc.
 // Reads        IN.hex.     Writes  OUT.hex and OUT.bin; copies .map, .lst and .sym beside them.
 // Exit codes   0 done, 2 usage, 3 an image that cannot be stamped, a file that cannot be written.
 #include <fmt/format.h>
@@ -10,14 +11,14 @@
 #include <iostream>
 #include <string>
 
-#include "host_sim/image/identity.hpp"
+#include "host_sim/image/board_image.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 
 struct Options {
-    std::string in, out, version, sources;
+    std::string in, out, version, sources, start, program;
 };
 
 std::string check_version(const std::string& text) {
@@ -52,9 +53,14 @@ int stamp(const Options& options) {
     host_sim::Image image = host_sim::load_hex(options.in);
     const host_sim::ImageIdentity identity = host_sim::stamp_identity(
         image, host_sim::parse_version(options.version).value(), hash_of(options.sources));
+    if (!options.start.empty()) {
+        host_sim::complete_for_board(image, identity,
+                                     host_sim::loader_image(host_sim::load_hex(options.start),
+                                                            host_sim::load_hex(options.program)));
+    }
     const fs::path out(options.out);
     write(fs::path(out).replace_extension(".bin"),
-          host_sim::write_bin(image, {0, static_cast<uint16_t>(identity.image_size - 1)}));
+          host_sim::write_bin(image, {0, image.extent()->last}));
     for (const char* extension : {".map", ".lst", ".sym"}) {
         write(fs::path(out).replace_extension(extension),
               host_sim::read_image_file(fs::path(options.in).replace_extension(extension)));
@@ -77,6 +83,12 @@ int main(int argc, char** argv) {
     app.add_option("--sources", options.sources, "Hash of the firmware's sources, 8 digits")
         ->required()
         ->check(check_hash);
+    CLI::Option* start = app.add_option("--loader-start", options.start,
+                                        "First part of the loader to be added, Intel HEX");
+    CLI::Option* program = app.add_option("--loader-program", options.program,
+                                          "Its second part, linked for RAM, Intel HEX");
+    start->needs(program);
+    program->needs(start);
     app.footer(
         "Example:\n"
         "  rover_stamp linked/rover85.hex -o bin/rover85.hex --image-version 0.1.0 --sources "
