@@ -29,7 +29,8 @@ struct Rb85Parts {
     using AnalogInputs = hal::AnalogInputs<Adc, PpiA>;
     using Motors = MotorLatch<Bus, rb85::kMotorDrive>;
     using Range =
-        RangeModule<PpiB, rb85::kRangeAckBit, rb85::kRangeStrobeBit, rb85::kRangeSelectBit>;
+        RangeModule<PpiB, rb85::kRangeAckBit, rb85::kRangeStrobeBit, rb85::kRangeSelectBit,
+                    rb85::kTrapGateBit>;
     using Watchdog = SodWatchdog<Bus>;
     using Presence = PresenceBuffer<Bus, rb85::kPresence>;
 

@@ -28,7 +28,8 @@ static_assert(sizeof(RangeFrame) == 2 + 2 * kRangeSampleCount);
 /// @tparam kAckBit     mask in port C, input
 /// @tparam kStrobeBit  mask in port C, output
 /// @tparam kSelectBit  mask in port C, output
-template <class Ppi, uint8_t kAckBit, uint8_t kStrobeBit, uint8_t kSelectBit>
+/// @tparam kHigh       other outputs of port C: they are high and stay so
+template <class Ppi, uint8_t kAckBit, uint8_t kStrobeBit, uint8_t kSelectBit, uint8_t kHigh = 0>
 struct RangeModule {
     static_assert(kAckBit == 1, "ACKNOWLEDGE is compared with bit 0 of a control word");
 
@@ -45,7 +46,7 @@ struct RangeModule {
         uint8_t strobe = Ppi::template kClearWord<kStrobeBit>;  // bit 0: its level
         uint8_t left = sizeof(RangeFrame) + 1;
         RangeStatus status = RangeStatus::absent;
-        Ppi::write_c(kSelectBit);
+        Ppi::write_c(kSelectBit | kHigh);
         while (acknowledged(strobe)) {
             const uint8_t value = Ppi::read_a();
             if (--left == 0) {
@@ -58,7 +59,7 @@ struct RangeModule {
             *next++ = value;  // while the module fetches the next byte
             sum = static_cast<uint8_t>(sum + value);
         }
-        Ppi::write_c(0);
+        Ppi::write_c(kHigh);
         return status;
     }
 

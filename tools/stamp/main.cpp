@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 #include "host_sim/image/board_image.hpp"
 
@@ -49,6 +51,19 @@ void write(const fs::path& file, const std::string& content) {
     }
 }
 
+/// The symbols of a program with a word in front of each name.
+std::string named_symbols(const fs::path& hex, std::string_view word) {
+    std::istringstream lines(host_sim::read_image_file(fs::path(hex).replace_extension(".sym")));
+    std::string text;
+    constexpr std::size_t kBeforeName = 12;  // "ADDR SIZE K "
+    for (std::string line; std::getline(lines, line);) {
+        const bool has_name = line.size() > kBeforeName && line[kBeforeName] != '-';
+        if (has_name) line.insert(kBeforeName, word);
+        text += line + "\n";
+    }
+    return text;
+}
+
 int stamp(const Options& options) {
     host_sim::Image image = host_sim::load_hex(options.in);
     const host_sim::ImageIdentity identity = host_sim::stamp_identity(
@@ -62,8 +77,13 @@ int stamp(const Options& options) {
     write(fs::path(out).replace_extension(".bin"),
           host_sim::write_bin(image, {0, image.extent()->last}));
     for (const char* extension : {".map", ".lst", ".sym"}) {
-        write(fs::path(out).replace_extension(extension),
-              host_sim::read_image_file(fs::path(options.in).replace_extension(extension)));
+        std::string text =
+            host_sim::read_image_file(fs::path(options.in).replace_extension(extension));
+        if (extension == std::string_view(".sym") && !options.start.empty()) {
+            text += named_symbols(options.start, "loader start: ");
+            text += named_symbols(options.program, "loader: ");
+        }
+        write(fs::path(out).replace_extension(extension), text);
     }
     write(out, host_sim::write_hex(image));  // last: who sees it finds the others
     return 0;

@@ -11,6 +11,10 @@ namespace {
 
 using host_sim::Stimulus;
 
+// docs/spec/memory-map.md
+constexpr std::ptrdiff_t kApplicationFirst = 0x0C00;
+constexpr std::size_t kRecordPage = 0x7FC0;
+
 Program load() {
     const std::string image = ROVER_IMAGE;
     const host_sim::Image hex = host_sim::load_hex(image);
@@ -25,10 +29,14 @@ Program load() {
     if (identity == nullptr) throw std::runtime_error("no rover_identity in " + symbols);
     loaded.identity = identity->address;
     uint8_t* block = &loaded.rom[loaded.identity];
-    block[16] = static_cast<uint8_t>(loaded.rom.size() & 0xFF);
-    block[17] = static_cast<uint8_t>(loaded.rom.size() >> 8);
+    std::size_t end = kRecordPage;
+    while (!hex.present[end - 1]) --end;
+    loaded.image_end = end;
+    block[16] = static_cast<uint8_t>(end & 0xFF);
+    block[17] = static_cast<uint8_t>(end >> 8);
     block[18] = block[19] = 0;
-    const uint16_t crc = crc_of(loaded.rom);
+    const uint16_t crc = crc_of({loaded.rom.begin() + kApplicationFirst,
+                                 loaded.rom.begin() + static_cast<std::ptrdiff_t>(end)});
     block[18] = static_cast<uint8_t>(crc & 0xFF);
     block[19] = static_cast<uint8_t>(crc >> 8);
     return loaded;
@@ -78,6 +86,9 @@ uint16_t ImageBench::word(uint16_t address) const {
 
 bool ImageBench::run_to_step(uint16_t count) {
     const uint64_t limit = now() + 10 * kSecondT + count * kStepT;
+    // Behind a reset the loader listens, and the counter is that of the run before until the image
+    // has cleared it.
+    if (board.state.cpu.pc < kApplicationFirst && !run_to("rover_boot")) return false;
     // The RAM test makes other values of the counter for a moment: it has to be seen twice.
     for (uint16_t before = 0; now() < limit; run(2000)) {
         const uint16_t seen = steps();

@@ -23,7 +23,8 @@ namespace image_test {
 struct Program {
     std::vector<uint8_t> rom;
     host_sim::Symbols symbols;
-    uint16_t identity = 0;  ///< address of the identity block
+    uint16_t identity = 0;      ///< address of the identity block
+    std::size_t image_end = 0;  ///< last address of the application, plus 1
 };
 [[nodiscard]] const Program& program();
 

@@ -34,7 +34,7 @@ TEST(ImageLink, IdentityIsTheBlockInTheImage) {
     EXPECT_EQ(std::string(block, block + 7), "ROVER85");
     EXPECT_EQ(frame->payload, Bytes(block + 8, block + 28));
     EXPECT_EQ(frame->payload[0], 1);
-    EXPECT_EQ(frame->payload[8] | frame->payload[9] << 8, static_cast<int>(program.rom.size()));
+    EXPECT_EQ(frame->payload[8] | frame->payload[9] << 8, static_cast<int>(program.image_end));
     EXPECT_EQ(std::string(frame->payload.begin() + 12, frame->payload.end()), "Rocky3.2");
 }
 
@@ -74,7 +74,7 @@ TEST(ImageLink, UnknownTypesAndWrongSizesAreSaid) {
     EXPECT_EQ(acknowledged(bench, 0x03, Bytes(36)), (Bytes{0x03, 2}));
     EXPECT_EQ(acknowledged(bench, 0x03, Bytes(35)), (Bytes{0x03, 3}));  // version 0
     EXPECT_EQ(acknowledged(bench, 0x04, {}), (Bytes{0x04, 2}));
-    EXPECT_EQ(acknowledged(bench, 0x04, {2}), (Bytes{0x04, 3}));
+    EXPECT_EQ(acknowledged(bench, 0x04, {3}), (Bytes{0x04, 3}));
     EXPECT_EQ(bench.board.state.reset_count, 1u);
     EXPECT_EQ(bench.byte(0xFF60), 0);  // no record was written
 }
