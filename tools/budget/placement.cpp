@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "firmware/loader/layout.hpp"
+
 namespace rover_budget {
 namespace {
 
@@ -51,6 +53,13 @@ Placement place(const ImageMap& map, const host_sim::Symbols& symbols, const Mod
         for (uint32_t at = section.first; at < end; ++at) {
             placement.module_of[at] = static_cast<uint16_t>(module);
         }
+    }
+    // The loader in front of the image has symbols, and its bytes are its own.
+    for (const host_sim::Symbol& symbol : symbols.all()) {
+        const bool is_loader = symbol.address < rover::loader::kApplicationFirst;
+        if (!is_loader || symbol.kind == host_sim::SymbolKind::label) continue;
+        const auto module = static_cast<uint16_t>(table.of(symbol.name));
+        std::fill_n(placement.module_of.begin() + symbol.address, symbol.size, module);
     }
     for (const MapFunction& function : map.functions) {
         ModuleBytes& bytes = placement.bytes[placement.module_of[function.address & 0xFFFF]];

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "firmware/loader/layout.hpp"
+
 namespace rover_budget {
 namespace {
 
@@ -99,11 +101,12 @@ void StepProfile::observe(const StepRecord& step, const CpuState& after) {
     stack_->observe(step);
     accept(step, after);
     watch_masks(after);
-    watch_stack(after);
+    if (step.pc >= rover::loader::kApplicationFirst) watch_stack(after);
     watch_step_count(step);
 }
 
-/// SP is the program's from the start-up on; before that it holds what it held.
+/// SP is the program's from the start-up on; before that it holds what it held, and the loader has
+/// a stack of its own in the same page.
 void StepProfile::watch_stack(const CpuState& after) {
     constexpr uint32_t kDeepestBelievable = 0x400;
     if (after.sp > program_.stack_end || program_.stack_end - after.sp > kDeepestBelievable) return;
