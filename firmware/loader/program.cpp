@@ -151,9 +151,12 @@ uint16_t word_at(const volatile uint8_t* at) {
 /// Writes a page that is not yet what it should be, and reads it back.
 [[gnu::noinline]] bool program(uint16_t address, const uint8_t* bytes) {
     if (holds(address, bytes)) return true;
-    if (Eeprom::write(address, bytes)) return holds(address, bytes);
-    report_at(Result::no_end, address);
-    return false;
+    if (!Eeprom::write(address, bytes)) {
+        report_at(Result::no_end, address);
+        return false;
+    }
+    report.result = Result::done;
+    return holds(address, bytes);
 }
 
 bool image_is_bootable() {
@@ -281,6 +284,8 @@ bool answer_content(Request type) {
         report_at(Result::wrong_address, address);
         return false;
     }
+    answer[0] = payload[0];
+    answer[1] = payload[1];
     if (type == Request::check) {
         answer_checks(address, count);
     } else {

@@ -54,11 +54,15 @@ void DownlinkReader::drop_first() {
 }
 
 std::vector<uint8_t> uplink_frame(UplinkType type, std::span<const uint8_t> payload) {
+    return uplink_frame(static_cast<uint8_t>(type), payload);
+}
+
+std::vector<uint8_t> uplink_frame(uint8_t type, std::span<const uint8_t> payload) {
     std::vector<uint8_t> bytes;
     bytes.reserve(kHeadSize + payload.size() + kCheckSize);
     bytes.push_back(kUpSync0);
     bytes.push_back(kUpSync1);
-    bytes.push_back(static_cast<uint8_t>(type));
+    bytes.push_back(type);
     bytes.push_back(static_cast<uint8_t>(payload.size()));
     for (const uint8_t byte : payload) bytes.push_back(byte);
     put_word(bytes, link_crc(std::span(bytes).subspan(2)));

@@ -55,6 +55,10 @@ enum class UplinkType : uint8_t { identity = 1, status = 2, calibration = 3, res
 [[nodiscard]] std::vector<uint8_t> uplink_frame(UplinkType type,
                                                 std::span<const uint8_t> payload = {});
 
+/// The same by the number of its type. @param payload  at most 255 bytes
+[[nodiscard]] std::vector<uint8_t> uplink_frame(uint8_t type,
+                                                std::span<const uint8_t> payload = {});
+
 /// The calibration record as the payload of its frame.
 [[nodiscard]] std::vector<uint8_t> calibration_payload(const hal::Calibration& calibration);
 

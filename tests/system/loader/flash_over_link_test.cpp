@@ -1,0 +1,72 @@
+// flash_over_link_test.cpp - an image goes into a board over its serial line: what ends up in the
+// EEPROM, what is refused, what the host is told.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/system/loader/loader_bench.hpp"
+
+namespace {
+
+using host_sim::FlashResult;
+using loader_test::built_image;
+using loader_test::LoaderBench;
+using loader_test::other_image;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kSoon{20'000};
+
+/// Pages that an erased part does not hold already.
+std::size_t pages_with_content(const host_sim::Image& image) {
+    const auto bytes = application_pages(image, read_identity(image));
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < bytes.size(); at += 64) {
+        const auto page = std::span(bytes).subspan(at, 64);
+        if (std::ranges::any_of(page, [](uint8_t byte) { return byte != 0xFF; })) ++count;
+    }
+    return count;
+}
+
+TEST(FlashOverLink, FromTheLoaderAloneToAFlyingImage) {
+    LoaderBench bench;
+    bench.live.start();
+    auto client = bench.client();
+    const auto hello = client.reach(kSoon);
+    EXPECT_FALSE(hello.bootable);
+    const FlashResult result = flash_over_link(client, built_image(), {});
+    EXPECT_FALSE(result.before);
+    ASSERT_TRUE(result.after);
+    EXPECT_EQ(result.pages_written, pages_with_content(built_image()));
+    EXPECT_EQ(client.repeated(), 0u);
+    EXPECT_EQ(client.start().result, rover::loader::Result::done);
+    EXPECT_TRUE(bench.flies(built_image()));
+    bench.live.stop();
+    EXPECT_TRUE(bench.holds(built_image()));
+    EXPECT_TRUE(bench.loader_is_untouched());
+    EXPECT_GT(bench.samples, 1000u);
+    EXPECT_EQ(bench.powered, 0u);
+    std::printf("%zu pages in %.1f s of the board's time\n", result.pages,
+                static_cast<double>(bench.live.elapsed_t()) / loader_test::kSecondT);
+}
+
+TEST(FlashOverLink, AFlyingImageIsTakenIntoTheLoaderAndReplaced) {
+    LoaderBench bench(true);
+    bench.live.start();
+    ASSERT_TRUE(bench.flies(built_image()));
+    auto client = bench.client();
+    const auto hello = client.reach(kSoon);
+    EXPECT_TRUE(hello.bootable);
+    EXPECT_EQ(hello.entry, rover::loader::Entry::asked);
+    ASSERT_TRUE(hello.identity);
+    EXPECT_EQ(hello.identity->vehicle, "Rocky3.2");
+    const auto other = other_image();
+    const FlashResult result = flash_over_link(client, other, {.keep_other_vehicles = false});
+    EXPECT_EQ(result.pages_written, 1u) << "the identity and nothing else differs";
+    EXPECT_EQ(client.start().result, rover::loader::Result::done);
+    EXPECT_TRUE(bench.flies(other));
+    bench.live.stop();
+    EXPECT_TRUE(bench.holds(other));
+    EXPECT_EQ(bench.powered, 0u);
+}
+
+}  // namespace
