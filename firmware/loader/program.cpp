@@ -39,9 +39,9 @@ bool is_open;
 
 // -- The line ------------------------------------------------------------------------------------
 
-/// A pass takes 46 T.
+/// A pass takes 79 T.
 constexpr uint16_t kWaitMs = 50;
-constexpr uint16_t kWaitPasses = hal::rb85::kClockHz / 1000 * kWaitMs / 46;
+constexpr uint16_t kWaitPasses = hal::rb85::kClockHz / 1000 * kWaitMs / 79;
 constexpr uint8_t kWaitsMax = kPatienceMs / kWaitMs;
 
 /// Waits for a character, kWaitMs at most. The watchdog gets its edge here.
@@ -339,7 +339,7 @@ int main() {  // tidy-allow(explicit-width): the language wants int
         uint8_t byte;
         if (!take(byte)) {
             opened = false;
-            if (--waits == 0 && image_is_bootable()) wait_for_reset();
+            if (--waits == 0) wait_for_reset();
         } else if (opened && byte == ToLoader::kSync1) {
             opened = false;
             if (!take_frame()) continue;

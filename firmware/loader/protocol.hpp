@@ -68,8 +68,9 @@ static_assert(sizeof(Hello) == 30);
 
 /// How long the start listens for a hello frame behind every reset.
 inline constexpr uint16_t kListenMs = 40;
-/// Behind so long without a frame the loader starts a bootable image.
-inline constexpr uint16_t kPatienceMs = 10'000;
+/// Behind so long without a frame the loader lets the watchdog reset the board: into a bootable
+/// image, else into the loader again, from a clean start.
+inline constexpr uint16_t kPatienceMs = 3000;
 
 /// The hello frame, byte by byte: what the start compares with.
 struct HelloFrame {

@@ -35,8 +35,8 @@ void open_link() {
     Parts::Usart::reset();
 }
 
-/// A pass without a character takes 39 T.
-constexpr uint16_t kListenPasses = hal::rb85::kClockHz / 1000 * kListenMs / 39;
+/// A pass without a character takes 48 T.
+constexpr uint16_t kListenPasses = hal::rb85::kClockHz / 1000 * kListenMs / 48;
 
 /// Does a hello frame come within the listening window?
 bool hears_hello() {

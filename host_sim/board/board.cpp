@@ -12,7 +12,11 @@ namespace rb85 = hal::rb85;
 
 namespace {
 
-constexpr uint64_t kButtonPulseT = 16;  // RESET IN: at least three clocks, data sheet
+// The one-shot of the watchdog stretches the button's pulse as well.
+constexpr uint64_t kResetPulseT = chips::SodWatchdog::kPulseNs * (rb85::kClockHz / 1000) / 1'000'000;
+static_assert(chips::SodWatchdog::kPulseNs >
+                  chips::At28c256::kLoadTimeNs + chips::At28c256::kWriteCycleNs,
+              "the program is fetched when the EEPROM can be read again");
 constexpr uint8_t kErased = 0xFF;
 
 void open_bus(BoardState& state, unsigned first, unsigned end) {
@@ -62,9 +66,13 @@ bool Board::reset_if_pending() {
 }
 
 void Board::reset() {
-    if (!state.watchdog.pulse()) state.cpu.t += kButtonPulseT;
     bus_.advance(state.cpu.t);
     bus_.reset(state.cpu.t);
+    if (state.watchdog.pulse()) return;  // which holds the processor as long as it lasts
+    state.cpu.t += kResetPulseT;
+    bus_.advance(state.cpu.t);
+    host_sim::reset(state.cpu);  // what came meanwhile was not latched
+    bus_.find_lines(state.cpu.t);
 }
 
 void Board::power_cycle() {

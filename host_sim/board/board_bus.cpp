@@ -228,6 +228,11 @@ void BoardBus::apply(const Stimulus& stimulus) {
     find_event();
 }
 
+void BoardBus::find_lines(uint64_t t) {
+    follow_interrupt_lines(t);
+    find_event();
+}
+
 void BoardBus::reset(uint64_t t) {
     host_sim::reset(s_.cpu);
     s_.usart.reset();

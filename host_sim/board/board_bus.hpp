@@ -36,6 +36,8 @@ public:
     /// The RESET line: processor, USART, parallel ports and motors. Timers, EEPROM and converter
     /// have no such pin.
     void reset(uint64_t t);
+    /// The interrupt lines as they are, for a processor that has just been reset.
+    void find_lines(uint64_t t);
 
     /// The PC that violations report.
     void set_instruction_pc(uint16_t pc) { instruction_pc_ = pc; }

@@ -12,7 +12,7 @@ namespace host_sim::chips {
 
 struct SodWatchdog {
     static constexpr uint64_t kPeriodNs = 500'000'000;  ///< quiet time that is tolerated
-    static constexpr uint64_t kPulseNs = 10'000'000;    ///< RESET and motors-off pulse
+    static constexpr uint64_t kPulseNs = 20'000'000;    ///< RESET and motors-off pulse
 
     /// Power-on at T-state 0: the first period begins.
     explicit SodWatchdog(uint64_t clock_hz);
