@@ -11,7 +11,7 @@
 
 namespace rover::loader {
 
-/// Polls of a write cycle: at 44 T each 22.9 ms, more than twice the longest cycle.
+/// Polls of a write cycle: at 53 T each 27 ms, more than twice the longest cycle.
 inline constexpr uint16_t kPollsMax = 1600;
 
 /// @tparam Memory  cells by address: static get(address), put(address, byte)
