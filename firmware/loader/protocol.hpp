@@ -67,7 +67,7 @@ struct Hello {
 static_assert(sizeof(Hello) == 30);
 
 /// How long the start listens for a hello frame behind every reset.
-inline constexpr uint16_t kListenMs = 40;
+inline constexpr uint16_t kListenMs = 60;
 /// Behind so long without a frame the loader lets the watchdog reset the board: into a bootable
 /// image, else into the loader again, from a clean start.
 inline constexpr uint16_t kPatienceMs = 3000;

@@ -143,9 +143,13 @@ bool is_the_image(const LoaderHello& hello, const Pages& pages) {
 void bring_in(LoaderClient& client, const Pages& pages, const FlashOptions& options,
               FlashResult& result) {
     const LoaderHello hello = client.hello();
+    check_layout(hello);
+    if (options.keep_other_vehicles) check_vehicle(hello, pages);
+    if (!result.before) result.before = hello.identity;
     auto different = different_pages(client, pages, options.progress, "compare");
     if (different.empty() && is_the_image(hello, pages) && !options.write_all) {
         result.was_bootable_already = result.pages_written == 0;
+        result.after = hello.identity;
         return;
     }
     if (options.write_all && result.pages_written == 0) {
@@ -160,6 +164,9 @@ void bring_in(LoaderClient& client, const Pages& pages, const FlashOptions& opti
     }
     tell(options.progress, "write", different.size(), different.size());
     close(client, pages);
+    const LoaderHello after = client.hello();
+    if (!is_the_image(after, pages)) throw Reopen{};
+    result.after = after.identity;
 }
 
 /// The same, again when the board was reset in between.
@@ -230,16 +237,7 @@ FlashResult flash_over_link(LoaderClient& client, const Image& image,
     const Pages pages(image);
     FlashResult result;
     result.pages = pages.count();
-    const LoaderHello before = client.hello();
-    check_layout(before);
-    result.before = before.identity;
-    if (options.keep_other_vehicles) check_vehicle(before, pages);
     bring_in_at_last(client, pages, options, result);
-    const LoaderHello after = client.hello();
-    result.after = after.identity;
-    if (!is_the_image(after, pages)) {
-        throw FlashError("the board does not say it has this image; run the command again");
-    }
     return result;
 }
 

@@ -102,31 +102,18 @@ std::optional<LoaderHello> LoaderClient::try_hello(Milliseconds timeout) {
 }
 
 LoaderHello LoaderClient::reach(Milliseconds timeout, const std::function<void()>& waiting) {
-    constexpr Milliseconds kAnswers{150};
-    constexpr Milliseconds kReset{1000};  // watchdog 0.5 s, its pulse, the start
-    constexpr Milliseconds kBetween{12};  // inside the start's listening window
-    constexpr unsigned kFirstTries = 6;
+    // A hello frame falls whole into the listening window behind any reset, and an application that
+    // listens, 16 bytes each 100 ms, still has room for the restart frame.
+    constexpr Milliseconds kBetween{rover::loader::kListenMs - 10};
+    constexpr unsigned kRestartEvery = 10, kPatience = 40;
     const auto end = Clock::now() + timeout;
-    // A board that has just been switched on listens now.
-    for (unsigned i = 0; i < kFirstTries; ++i) {
-        if (const auto hello = try_hello(kBetween)) return *hello;
-    }
-    bool told = false;
+    unsigned tries = 0;
     do {
-        if (const auto hello = try_hello(kAnswers)) return *hello;
-        line_.write(uplink_frame(UplinkType::restart, std::array{kRestartIntoLoader}));
-        if (wait_for(DownlinkFrame::kAcknowledge, kAnswers * 2)) {
-            const auto reset = Clock::now() + kReset;
-            while (Clock::now() < reset) {
-                if (const auto hello = try_hello(kAnswers)) return *hello;
-            }
+        if (tries % kRestartEvery == 1) {
+            line_.write(uplink_frame(UplinkType::restart, std::array{kRestartIntoLoader}));
         }
-        if (!told && waiting) waiting();
-        told = true;
-        const auto round = std::min(end, Clock::now() + 2 * kReset);
-        while (Clock::now() < round) {
-            if (const auto hello = try_hello(kBetween)) return *hello;
-        }
+        if (const auto hello = try_hello(kBetween)) return *hello;
+        if (++tries == kPatience && waiting) waiting();
     } while (Clock::now() < end);
     throw LoaderError(
         "neither the loader nor the image answers; check power, the cable (TxD and RxD crossed) "

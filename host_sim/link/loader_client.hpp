@@ -78,9 +78,9 @@ public:
     /// Is it the image that answers? Asks it which it is; nothing within `timeout`: it does not.
     [[nodiscard]] std::optional<RemoteIdentity> ask_image(Milliseconds timeout);
 
-    /// Gets the board into the loader: asks the loader, tells the image, and else offers hello
-    /// frames until somebody presses RESET.
-    /// @param waiting  called once when neither has answered
+    /// Gets the board into the loader: offers hello frames, which a loader answers and the start of
+    /// a board that is being reset hears, and tells an image that listens to go there.
+    /// @param waiting  called once when nobody has answered for 2 s: somebody has to press RESET
     /// @errors  LoaderError: nobody within `timeout`
     LoaderHello reach(Milliseconds timeout, const std::function<void()>& waiting = {});
 

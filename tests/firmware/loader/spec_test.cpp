@@ -98,7 +98,7 @@ TEST(LoaderPage, HasTheHello) {
 }
 
 TEST(LoaderPage, HasTheTimesAndTheMark) {
-    EXPECT_EQ(kListenMs, 40);
+    EXPECT_EQ(kListenMs, 60);
     EXPECT_EQ(kPatienceMs, 3000);
     EXPECT_EQ(static_cast<int>(rover::RunMark::loader), 0x4C);
     EXPECT_EQ(static_cast<int>(rover::RunMark::warm_restart), 0x57);

@@ -8,6 +8,7 @@
 
 #include "host_sim/board/board.hpp"
 #include "host_sim/board/board_state.hpp"
+#include "tests/support/trap_gate.hpp"
 
 namespace {
 
@@ -148,6 +149,8 @@ TEST_F(BoardBusTest, DirectionBitsDetectorsAndTrapCauseAreRead) {
     apply(Stimulus::Kind::detectors, 0, 0x5A);
     EXPECT_EQ(in(0x25), 0x5A);
     apply(Stimulus::Kind::undervoltage, 0, 1);
+    EXPECT_FALSE(state.cpu.pin(host_sim::Pin::trap).level) << "the gate is closed";
+    test_support::open_trap_gate(state);
     EXPECT_EQ(in(0x21) & 0x80, 0x80);
     EXPECT_TRUE(state.cpu.pin(host_sim::Pin::trap).level);
     apply(Stimulus::Kind::undervoltage, 0, 0);

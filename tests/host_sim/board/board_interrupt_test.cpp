@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/host_sim/board/board_program.hpp"
+#include "tests/support/trap_gate.hpp"
 
 namespace {
 
@@ -159,6 +160,7 @@ TEST(BoardInterrupt, UndervoltageTakesTheTrapAtOnceAndOnce) {
 MAIN:   JMP  MAIN
 TICK:   RET
 )"));
+    test_support::open_trap_gate(board.state);
     // MAIN begins at 90 behind DI; boundaries at 90 + 10 k. Low again, then a second rise.
     for (const auto& [t, level] : {std::pair{201, 1}, {500, 0}, {509, 1}, {700, 0}}) {
         board.schedule({static_cast<uint64_t>(t), Stimulus::Kind::undervoltage, 0, level});
@@ -172,9 +174,36 @@ TICK:   RET
     EXPECT_EQ(taken[1].t_begin, 512U);
 }
 
+TEST(BoardInterrupt, TheGateHoldsTrapBackUntilSoftwareOpensItAndResetClosesIt) {
+    Board board;
+    // The gate opens with the line active: the edge is the gate's.
+    board_test::program(board, assemble_program(R"(
+        LXI  SP,TOP
+        MVI  A,93H
+        OUT  27H
+        MVI  B,100
+WAIT:   DCR  B
+        JNZ  WAIT
+        MVI  A,0DH
+        OUT  27H
+        HLT
+        ORG  24H
+        HLT
+)"));
+    board.schedule({5, Stimulus::Kind::bumper, 0, 1});
+    auto taken = interrupts(board, 1300);
+    EXPECT_TRUE(taken.empty());
+    taken = interrupts(board, 2000);
+    ASSERT_EQ(taken.size(), 1U);
+    EXPECT_EQ(taken[0].kind, StepRecord::Kind::trap);
+    board.reset();
+    EXPECT_FALSE(board.state.cpu.pin(host_sim::Pin::trap).level);
+}
+
 TEST(BoardInterrupt, HaltNoticesAPulseOfOneTState) {
     Board board;
     board_test::program(board, assemble_program("LXI SP,TOP\n HLT\n DS 32\n HLT"));
+    test_support::open_trap_gate(board.state);
     board.schedule({1000, Stimulus::Kind::undervoltage, 0, 1});
     board.schedule({1001, Stimulus::Kind::undervoltage, 0, 0});
     const auto taken = interrupts(board, 2000);

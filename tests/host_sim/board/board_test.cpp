@@ -22,9 +22,9 @@ using host_sim::StepRecord;
 using host_sim::Stimulus;
 using host_sim::Violation;
 
-// From the board's page: 3.072 MHz; quiet time 0.5 s, pulse 10 ms.
+// From the board's page: 3.072 MHz; quiet time 0.5 s, pulse 20 ms.
 constexpr uint64_t kWatchdogT = 1'536'000;
-constexpr uint64_t kWatchdogPulseT = 30'720;
+constexpr uint64_t kWatchdogPulseT = 61'440;
 
 void load(Board& board, const std::string& source) {
     board_test::program(board, assemble_program(source));

@@ -1,5 +1,5 @@
 // sod_watchdog_test.cpp - the watchdog against docs/chips/sod-watchdog.md. At 3.072 MHz
-//   0.5 s = 1,536,000 T; pulse 10 ms = 30,720 T.
+//   0.5 s = 1,536,000 T; pulse 20 ms = 61,440 T.
 #include "host_sim/chips/sod_watchdog.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using host_sim::chips::SodWatchdog;
 
 constexpr uint64_t kClockHz = 3'072'000;
 constexpr uint64_t kPeriodT = 1'536'000;
-constexpr uint64_t kPulseT = 30'720;
+constexpr uint64_t kPulseT = 61'440;
 
 TEST(SodWatchdog, FirstPeriodBeginsWithPower) {
     SodWatchdog watchdog(kClockHz);

@@ -7,8 +7,9 @@
 
 namespace image_test {
 
-inline constexpr uint16_t kBlock = 0x0010;
-inline constexpr uint16_t kLast = 0x0040;
+inline constexpr uint16_t kFirst = 0x0C00;
+inline constexpr uint16_t kBlock = 0x0C10;
+inline constexpr uint16_t kLast = 0x0C40;
 
 /// "ROVER85", 0, format 1, then zeros and the vehicle "Rocky3.2", as the firmware declares it.
 inline void put_block(host_sim::Image& image, uint16_t at) {
@@ -22,11 +23,11 @@ inline void put_block(host_sim::Image& image, uint16_t at) {
     for (const char byte : kBytes) image.put(at++, static_cast<uint8_t>(byte));
 }
 
-/// 41H bytes, all but the block 76H (HLT).
+/// 41H bytes from 0C00H on, all but the block 76H (HLT).
 inline host_sim::Image unstamped() {
     host_sim::Image image;
     image.file = "a.hex";
-    for (uint16_t at = 0; at <= kLast; ++at) image.put(at, 0x76);
+    for (uint16_t at = kFirst; at <= kLast; ++at) image.put(at, 0x76);
     put_block(image, kBlock);
     return image;
 }

@@ -111,6 +111,37 @@ trap:   DS    40
     EXPECT_EQ(program.find("__vector_0024")->kind, LabelKind::interrupt_entry);
 }
 
+TEST(Link, VectorsBehindALoaderAndTheLoadersOwn) {
+    LinkOptions options;
+    options.rom = {0x0C00, 0x7FBF};
+    options.vector_base = 0x0C00;
+    options.vectors = {{0x0000, "boot"}, {0x0024, "trap"}};
+    const char* source = R"(
+        SECTION boot,code
+boot:   JMP   boot
+        SECTION trap,code
+trap:   RET
+)";
+    const Program program = linked(source, options);
+    EXPECT_EQ(bytes_at(program, 0x0C00, 3), (Bytes{0xC3, 0x03, 0x0C}));
+    EXPECT_EQ(bytes_at(program, 0x0C24, 3), (Bytes{0xC3, 0x06, 0x0C}));
+    EXPECT_EQ(program.find("__vector_0C24")->kind, LabelKind::interrupt_entry);
+    EXPECT_EQ(program.start, 0x0C03);
+    options.vectors = {{0x0000, "boot"}};
+    options.rom = {0x0000, 0x01FF};
+    options.vector_base = 0;
+    options.forward_to = 0x0C00;
+    options.roots = {"boot"};
+    const Program loader = linked(source, options);
+    EXPECT_EQ(bytes_at(loader, 0x24, 3), (Bytes{0xC3, 0x24, 0x0C}));
+    EXPECT_EQ(bytes_at(loader, 0x2C, 3), (Bytes{0xC3, 0x2C, 0x0C}));
+    EXPECT_EQ(bytes_at(loader, 0x34, 3), (Bytes{0xC3, 0x34, 0x0C}));
+    EXPECT_EQ(bytes_at(loader, 0x3C, 3), (Bytes{0xC3, 0x3C, 0x0C}));
+    options.vector_base = 0xFFF0;
+    options.vectors = {{0x0024, "trap"}};
+    EXPECT_THROW((void)linked(source, options), toolchain::assembly::Error);
+}
+
 TEST(Link, NamesOfTheLinkerAndEquatesOfOtherModules) {
     LinkOptions options = small_options();
     options.roots = {"f"};

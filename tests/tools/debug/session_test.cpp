@@ -2,6 +2,7 @@
 #include "tools/debug/session.hpp"
 
 #include "tests/tools/debug/bench.hpp"
+#include "tests/support/trap_gate.hpp"
 
 namespace debug_console {
 namespace {
@@ -84,6 +85,7 @@ TEST(Session, OverTakesAnInterruptBeforeTheInstructionAsAWhole) {
     )");
     bench.session.step(2);
     EXPECT_EQ(bench.t(), 20u);
+    test_support::open_trap_gate(bench.session.board.state);
     bench.session.board.schedule({15, host_sim::Stimulus::Kind::bumper, 0, 1});
     bench.session.step(1);  // sampled at the end of the first NOP
     EXPECT_EQ(bench.t(), 24u);
@@ -174,6 +176,7 @@ TEST(Session, AnInterruptThatComesFirstDoesNotHitTheBreakpointTwice) {
     )");
     bench.session.breakpoints.add(at_address(bench.symbol("here")));
     // From T 21 on: seen at the end of the first NOP, T 24, two T-states later or more.
+    test_support::open_trap_gate(bench.session.board.state);
     bench.session.board.schedule({21, host_sim::Stimulus::Kind::bumper, 0, 1});
     EXPECT_EQ(bench.session.run(100).kind, Stop::Kind::breakpoint);
     EXPECT_EQ(bench.pc(), bench.symbol("here"));

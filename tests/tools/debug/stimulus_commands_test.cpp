@@ -1,6 +1,7 @@
 // stimulus_commands_test.cpp - the outside world by hand, seen in the board's state.
 #include "tests/tools/debug/bench.hpp"
 #include "tools/debug/commands.hpp"
+#include "tests/support/trap_gate.hpp"
 
 namespace debug_console {
 namespace {
@@ -87,6 +88,7 @@ TEST(StimulusCommands, LinesAreSetAtOnceOrLater) {
     EXPECT_TRUE(state.undervoltage);
     bench("trap undervoltage off");
     EXPECT_FALSE(state.undervoltage);
+    test_support::open_trap_gate(bench.session.board.state);
     bench("trap bumper on");
     EXPECT_TRUE(state.cpu.pin(host_sim::Pin::trap).level);
     bench("service on");
@@ -104,6 +106,7 @@ TEST(StimulusCommands, LinesAreSetAtOnceOrLater) {
 
 TEST(StimulusCommands, AtSchedules) {
     Bench bench;
+    test_support::open_trap_gate(bench.session.board.state);
     bench("at 100 trap bumper on");
     EXPECT_FALSE(bench.session.board.state.bumper);
     ASSERT_EQ(bench.session.board.state.stimuli.size(), 1u);

@@ -7,10 +7,13 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "host_sim/image/board_image.hpp"
 #include "host_sim/image/checksum.hpp"
 #include "host_sim/image/identity.hpp"
 #include "tests/host_sim/image/identity_image.hpp"
+#include "host_sim/link/serial_port.hpp"
 #include "tests/tools/rover85/command_line.hpp"
+#include "tools/rover85/flash_link.hpp"
 
 namespace {
 
@@ -27,12 +30,18 @@ std::string read(const std::string& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// A folder with a.hex, a stamped image of 65 bytes.
+/// A folder with a.hex: a stamped image of 65 bytes, a loader of one instruction, a boot record.
 class FlashCommand : public testing::Test {
 protected:
     FlashCommand() {
-        host_sim::stamp_identity(image, {0, 1, 0}, 0x1A2B3C4D);
+        complete(image);
         write(hex, host_sim::write_hex(image));
+    }
+    static void complete(Image& application) {
+        const auto identity = host_sim::stamp_identity(application, {0, 1, 0}, 0x1A2B3C4D);
+        Image loader;
+        loader.put(0, 0x76);
+        host_sim::complete_for_board(application, identity, loader);
     }
 
     Outcome flash(std::vector<std::string> arguments) {
@@ -53,8 +62,10 @@ TEST_F(FlashCommand, WritesTheWholePartPaddedWithErasedBytes) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string bin = read(out);
     ASSERT_EQ(bin.size(), 32768u);
-    EXPECT_EQ(bin.substr(0, 65), host_sim::write_bin(image, {0, image_test::kLast}));
-    EXPECT_EQ(bin.find_first_not_of('\xFF', 65), std::string::npos);
+    EXPECT_EQ(bin, host_sim::write_bin(image, {0, 0x7FFF}));
+    EXPECT_EQ(bin[0], 0x76);
+    EXPECT_EQ(bin.find_first_not_of('\xFF', 1), image_test::kFirst);
+    EXPECT_EQ(bin.find_first_not_of('\xFF', image_test::kLast + 1u), 0x7FC0u);
 }
 
 TEST_F(FlashCommand, PrintsSizeChecksAndIdentity) {
@@ -68,7 +79,7 @@ TEST_F(FlashCommand, PrintsSizeChecksAndIdentity) {
     EXPECT_NE(outcome.out.find(checks), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("rover85 0.1.0 sources 1a2b3c4d vehicle Rocky3.2, 65 bytes"),
               std::string::npos);
-    EXPECT_NE(outcome.out.find("65 of 32768 bytes (0.2 %)"), std::string::npos);
+    EXPECT_NE(outcome.out.find("65 of 29632 bytes (0.2 %)"), std::string::npos);
     EXPECT_NE(outcome.out.find("verified  " + out + ": all 32768 bytes"), std::string::npos);
     EXPECT_NE(outcome.out.find("minipro -p AT28C256 -u -w " + out), std::string::npos);
 }
@@ -86,13 +97,13 @@ TEST_F(FlashCommand, TakesABinAndOnePaddedAlready) {
     ASSERT_EQ(flash_to_out().exit_code, 0);
     const std::string first = read(out);
     const std::string bin = folder.file("b.bin");
-    write(bin, host_sim::write_bin(image, {0, image_test::kLast}));
+    write(bin, host_sim::write_bin(image, {0, 0x7FCB}));
     ASSERT_EQ(flash({bin, "--backend", "file", "--out", folder.file("c.bin")}).exit_code, 0);
     EXPECT_EQ(read(folder.file("c.bin")), first);
     ASSERT_EQ(
-        flash({out, "--backend", "file", "--size", "8K", "--out", folder.file("d.bin")}).exit_code,
+        flash({out, "--backend", "file", "--size", "64K", "--out", folder.file("d.bin")}).exit_code,
         0);
-    EXPECT_EQ(read(folder.file("d.bin")), first.substr(0, 8192));
+    EXPECT_EQ(read(folder.file("d.bin")), first + std::string(32768, '\xFF'));
     EXPECT_EQ(read(folder.file("d.hex")), read(folder.file("part.hex")));
 }
 
@@ -111,12 +122,12 @@ TEST_F(FlashCommand, WhatWasReadFromAPartIsCompared) {
     const std::string part = folder.file("read.bin");
     write(part, bin);
     EXPECT_EQ(flash({hex, "--backend", "file", "--compare", part}).exit_code, 0);
-    bin[0x05] = 0x00;  // HLT, 76H
+    bin[0x0C05] = 0x00;  // HLT, 76H
     bin[0x7000] = 0x12;
     write(part, bin);
     const Outcome outcome = flash({hex, "--backend", "file", "--compare", part});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.out.find("first wrong address 0005H: 00H instead of 76H"), std::string::npos)
+    EXPECT_NE(outcome.out.find("first wrong address 0C05H: 00H instead of 76H"), std::string::npos)
         << outcome.out;
     EXPECT_NE(outcome.out.find("; 2 of 32768 bytes are wrong"), std::string::npos);
     write(part, bin.substr(0, 100));
@@ -124,14 +135,13 @@ TEST_F(FlashCommand, WhatWasReadFromAPartIsCompared) {
               std::string::npos);
 }
 
-TEST_F(FlashCommand, RefusesImagesThatDoNotFit) {
-    image.put(0x3000, 0);
-    host_sim::stamp_identity(image, {0, 1, 0}, 0x1A2B3C4D);
-    write(hex, host_sim::write_hex(image));
-    const Outcome outcome = flash({hex, "--backend", "file", "--size", "8", "--out", out});
+TEST_F(FlashCommand, RefusesAnApplicationAloneForAProgrammer) {
+    Image alone = image_test::unstamped();
+    host_sim::stamp_identity(alone, {0, 1, 0}, 0x1A2B3C4D);
+    write(hex, host_sim::write_hex(alone));
+    const Outcome outcome = flash_to_out();
     EXPECT_EQ(outcome.exit_code, 3);
-    EXPECT_NE(outcome.err.find("address 3000H is outside of the EEPROM 0000H-1FFFH"),
-              std::string::npos)
+    EXPECT_NE(outcome.err.find("has no loader or no boot record"), std::string::npos)
         << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(out));
 }
@@ -147,7 +157,7 @@ TEST_F(FlashCommand, RefusesDamagedAndUnstampedImages) {
     };
     EXPECT_NE(refusal(host_sim::write_hex(image_test::unstamped())).find("never been stamped"),
               std::string::npos);
-    image.put(5, 0x00);
+    image.put(0x0C05, 0x00);
     EXPECT_NE(refusal(host_sim::write_hex(image)).find("CRC-16"), std::string::npos);
     EXPECT_NE(refusal(":00000001FE\n").find("a.hex:1:"), std::string::npos);
     EXPECT_NE(refusal("").find("a.hex: the file is empty"), std::string::npos);
@@ -172,17 +182,46 @@ TEST_F(FlashCommand, AFileThatDoesNotReadBackIsADifference) {
     EXPECT_NE(outcome.out.find("verified  " + folder.file("part.hex")), std::string::npos);
 }
 
-TEST_F(FlashCommand, BackendsThatDoNotExistYetSaySo) {
-    for (const std::string backend : {"serial", "board"}) {
-        const Outcome outcome = flash({hex, "--backend", backend});
-        EXPECT_EQ(outcome.exit_code, 2);
-        EXPECT_NE(outcome.err.find("not available yet"), std::string::npos);
+TEST_F(FlashCommand, APortThatIsNotThereIsNamed) {
+    const Outcome outcome = flash({hex, "--backend", "serial", "--port", "/dev/no_such_port"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_NE(outcome.err.find("/dev/no_such_port: cannot be opened"), std::string::npos)
+        << outcome.err;
+}
+
+TEST_F(FlashCommand, TheOnlySerialPortIsTaken) {
+    const std::string devices = folder.file("dev");
+    std::filesystem::create_directory(devices);
+    EXPECT_THROW((void)only_serial_port(devices), host_sim::SerialError);
+    write(devices + "/ttyS0", "");
+    EXPECT_THROW((void)only_serial_port(devices), host_sim::SerialError);
+    write(devices + "/ttyUSB1", "");
+    EXPECT_EQ(only_serial_port(devices), devices + "/ttyUSB1");
+    write(devices + "/ttyACM0", "");
+    try {
+        (void)only_serial_port(devices);
+        ADD_FAILURE();
+    } catch (const host_sim::SerialError& error) {
+        EXPECT_NE(std::string(error.what()).find("ttyACM0, " + devices + "/ttyUSB1"),
+                  std::string::npos)
+            << error.what();
     }
+}
+
+TEST_F(FlashCommand, AnEepromFileOfAnotherSizeIsRefused) {
+    write(out, "abc");
+    const Outcome outcome = flash({hex, "--backend", "board", "--eeprom", out});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_NE(outcome.err.find("has 3 bytes, an EEPROM 32768"), std::string::npos) << outcome.err;
+    EXPECT_EQ(read(out), "abc");
 }
 
 TEST_F(FlashCommand, UsageErrors) {
     EXPECT_EQ(flash({hex}).exit_code, 2);
     EXPECT_EQ(flash({hex, "--backend", "smoke"}).exit_code, 2);
+    EXPECT_EQ(flash({hex, "--backend", "board"}).exit_code, 2);
+    EXPECT_EQ(flash({hex, "--backend", "file", "--size", "8"}).exit_code, 2);
+    EXPECT_EQ(flash({hex, "--backend", "serial", "--verify", "--dry-run"}).exit_code, 2);
     EXPECT_EQ(flash({hex, "--backend", "file", "--size", "33"}).exit_code, 2);
     EXPECT_EQ(flash({hex, "--backend", "file", "--out", "part.hex"}).exit_code, 2);
     EXPECT_EQ(flash({hex, "--backend", "file", "--compare", out, "--dry-run"}).exit_code, 2);

@@ -44,7 +44,8 @@ TEST(RoverStamp, WritesTheStampedImageAndItsCompanions) {
     const host_sim::ImageIdentity identity = host_sim::read_identity(hex);
     EXPECT_EQ(identity.version, (host_sim::ImageVersion{0, 1, 0}));
     EXPECT_EQ(identity.source_hash, 0x1A2B3C4Du);
-    EXPECT_TRUE(hex.same_content(host_sim::load_bin(folder / "out.bin", 0)));
+    const host_sim::Image bin = host_sim::load_bin(folder / "out.bin", 0);
+    EXPECT_EQ(bin.bytes, hex.bytes);
     EXPECT_EQ(system_test::read_bytes(folder / "out.map"), "of .map");
     EXPECT_EQ(system_test::read_bytes(folder / "out.lst"), "of .lst");
     EXPECT_EQ(system_test::read_bytes(folder / "out.sym"), "of .sym");
@@ -62,6 +63,36 @@ TEST(RoverStamp, AnImageWithoutABlockIsRefusedAndNothingWritten) {
     for (const char* ending : kEndings) {
         EXPECT_FALSE(fs::exists(folder / (std::string("out") + ending))) << ending;
     }
+}
+
+TEST(RoverStamp, AddsTheLoaderItsSymbolsAndTheBootRecord) {
+    const Folder folder;
+    write_linked(folder, image_test::unstamped());
+    system_test::write_bytes(folder / "in.sym", "0C00 0010 F main\n");
+    host_sim::Image start, program;
+    start.put(0x0000, 0xC3);
+    program.put(0xE000, 0xC9);
+    system_test::write_bytes(folder / "start.hex", host_sim::write_hex(start));
+    system_test::write_bytes(folder / "program.hex", host_sim::write_hex(program));
+    system_test::write_bytes(folder / "start.sym", "0000 0003 F main\n0000 0001 L - @ a.cpp:1\n");
+    system_test::write_bytes(folder / "program.sym", "E000 0001 F main\n");
+    std::vector<std::string> arguments = usual(folder);
+    for (const std::string& argument :
+         {std::string("--loader-start"), folder / "start.hex", std::string("--loader-program"),
+          folder / "program.hex"}) {
+        arguments.push_back(argument);
+    }
+    const Outcome outcome = stamp(folder, arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.messages;
+    const host_sim::Image hex = host_sim::load_hex(folder / "out.hex");
+    EXPECT_EQ(hex.bytes[0x0000], 0xC3);
+    EXPECT_EQ(hex.bytes[0x0200], 0xC9);
+    EXPECT_EQ(hex.bytes[0x7FC0], 'R');
+    EXPECT_EQ(system_test::read_bytes(folder / "out.sym"),
+              "0C00 0010 F main\n0000 0003 F loader start: main\n0000 0001 L - @ a.cpp:1\n"
+              "E000 0001 F loader: main\n");
+    arguments.resize(arguments.size() - 2);
+    EXPECT_EQ(stamp(folder, arguments).exit_code, 2) << "one part without the other";
 }
 
 TEST(RoverStamp, UsageErrors) {
