@@ -198,7 +198,7 @@ TEST(ReadIdentity, PaddingBehindTheProgramIsNoFault) {
 /// A loader of a JMP and an RET, in its two parts.
 Image loader() {
     Image start, program;
-    for (const uint8_t byte : {0xC3, 0x00, 0x00}) {
+    for (const uint8_t byte : {uint8_t{0xC3}, uint8_t{0x00}, uint8_t{0x00}}) {
         start.put(static_cast<uint16_t>(start.byte_count()), byte);
     }
     program.put(0xE000, 0xC9);
