@@ -74,6 +74,7 @@ std::optional<Message> Receiver::take(uint8_t byte, Elapsed now) {
     ++counts_.bytes;
     const auto frame = reader_.take(byte, 0);
     if (!frame) return {};
+    if (!stray_before_) stray_before_ = reader_.stray_bytes();
     return read(*frame, now);
 }
 
@@ -129,7 +130,7 @@ void Receiver::follow(Telemetry& telemetry, Elapsed now) {
 Counts Receiver::counts() const {
     Counts counts = counts_;
     counts.refused += reader_.refused_frames();
-    counts.stray_bytes = reader_.stray_bytes();
+    counts.stray_bytes = reader_.stray_bytes() - stray_before_.value_or(0);
     return counts;
 }
 

@@ -39,7 +39,7 @@ struct Counts {
     uint64_t bytes = 0;
     uint64_t telemetry = 0;      ///< frames
     uint64_t refused = 0;        ///< frames with a wrong check or content
-    uint64_t stray_bytes = 0;    ///< in no whole frame
+    uint64_t stray_bytes = 0;    ///< in no whole frame, since the first one
     uint64_t steps_missing = 0;  ///< between telemetry frames
     uint64_t restarts = 0;
 };
@@ -56,6 +56,7 @@ private:
 
     host_sim::DownlinkReader reader_;
     Counts counts_;
+    std::optional<uint64_t> stray_before_;  ///< bytes of the frame in whose middle it began
     std::optional<Telemetry> last_;
     Elapsed last_at_{0};
 };

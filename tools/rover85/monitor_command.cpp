@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host_sim/bind/live_drive.hpp"
 #include "host_sim/link/live_board.hpp"
@@ -33,6 +34,7 @@ struct MonitorOptions {
     double wait_s = 3;
     TargetOptions image;
     CourseOptions course;
+    std::vector<CLI::Option*> of_board;  ///< what only --board can use
 };
 
 monitor::SessionOptions session_options(const MonitorOptions& options, std::string name) {
@@ -112,7 +114,8 @@ void add_options(CLI::App& command, MonitorOptions& options) {
                             ->type_name("PATH");
     CLI::Option* board = command.add_flag(
         "--board", options.board,
-        "No port: the image drives on a simulated board in the simulated world, in real time");
+        "No port: the image drives on a simulated board, in real time, through the world that "
+        "the other options describe");
     port->excludes(board);
     command
         .add_option("--record", options.record, "Record as a log, .rlog or .csv, while it comes")
@@ -123,21 +126,36 @@ void add_options(CLI::App& command, MonitorOptions& options) {
     command.add_option("--wait", options.wait_s, "For the first telemetry frame, s")
         ->check(CLI::Range(0.1, 1e5))
         ->capture_default_str();
+    const std::size_t own = command.get_options().size();
     command
         .add_option("--image", options.image.image,
                     "Image for --board, Intel HEX with its .sym beside it; else rover85.hex beside "
                     "this program")
         ->type_name("HEX");
+    add_course_options(command, options.course);
+    const auto all = command.get_options();
+    options.of_board.assign(all.begin() + static_cast<std::ptrdiff_t>(own), all.end());
 }
 
-/// Everything of the simulated world needs --board.
-void add_world(CLI::App& command, MonitorOptions& options) {
-    const auto own = command.get_options();
-    add_course_options(command, options.course);
-    for (CLI::Option* option : command.get_options()) {
-        const bool added = std::find(own.begin(), own.end(), option) == own.end();
-        if (added || option->get_name() == "--image") option->needs("--board");
+/// What only --board can use, and was given without it; nullptr: nothing.
+const CLI::Option* misplaced(const MonitorOptions& options) {
+    if (options.board) return nullptr;
+    for (const CLI::Option* option : options.of_board) {
+        if (option->count() > 0) return option;
     }
+    return nullptr;
+}
+
+int checked_monitor(const MonitorOptions& options) {
+    if (const CLI::Option* option = misplaced(options)) {
+        std::cerr << "rover85: monitor: " << option->get_name() << " needs --board\n";
+        return kExitUsage;
+    }
+    if (options.port.empty() && !options.board) {
+        std::cerr << "rover85: monitor: from where? Give --port PATH or --board\n";
+        return kExitUsage;
+    }
+    return run_monitor(options);
 }
 
 }  // namespace
@@ -148,7 +166,6 @@ void add_monitor_command(CLI::App& app, int& exit_code) {
         "monitor",
         "Show a rover's telemetry as it comes, and record it (docs/guides/monitoring.md)");
     add_options(command, *options);
-    add_world(command, *options);
     command.footer(
         "On a terminal the figures are renewed in place, elsewhere each frame is a line. The "
         "rover\n"
@@ -157,12 +174,5 @@ void add_monitor_command(CLI::App& app, int& exit_code) {
         "  rover85 monitor --port /dev/ttyUSB0\n"
         "  rover85 monitor --port /dev/ttyUSB0 --record drive.rlog --seconds 600\n"
         "  rover85 monitor --board --roughness 0.04 --record drive.csv");
-    command.callback([&command, options, &exit_code] {
-        if (options->port.empty() && !options->board) {
-            std::cerr << "rover85: monitor: from where? Give --port PATH or --board\n";
-            exit_code = kExitUsage;
-            return;
-        }
-        exit_code = run_monitor(*options);
-    });
+    command.callback([options, &exit_code] { exit_code = checked_monitor(*options); });
 }
