@@ -84,7 +84,11 @@ TEST(Session, AsksWhoItIsThenForItsStatusAndShowsTheFrames) {
     SerialPort port(line.path());
     std::ostringstream out;
     const Rover rover(line);
-    Session session(port, options(0.6), out);
+    SessionOptions chosen = options(20);
+    const Session* running = nullptr;
+    chosen.ended = [&] { return running->known().status && rover.step > 20; };
+    Session session(port, chosen, out);
+    running = &session;
     session.run();
     EXPECT_EQ(rover.identities_asked, 1);
     EXPECT_EQ(rover.statuses_asked, 1);
@@ -114,7 +118,7 @@ TEST(Session, GapsAndRestartsAreSaid) {
     line.write(monitor_test::telemetry(5, 800));
     line.write(monitor_test::telemetry(9, 800));
     line.write(monitor_test::telemetry(0, 0));
-    Session session(port, options(0.1), out);
+    Session session(port, options(0.5), out);
     session.run();
     EXPECT_THAT(out.str(), HasSubstr("\nno telemetry of 3 steps before step 9\n"));
     EXPECT_THAT(out.str(), HasSubstr("\nthe rover was reset and has started cold\n"));
@@ -152,13 +156,16 @@ TEST(Session, ASilenceIsSaidOnce) {
     SerialPort port(line.path());
     std::ostringstream out;
     Rover rover(line);
-    SessionOptions chosen = options(4.5);
-    std::thread hush([&rover] {
-        std::this_thread::sleep_for(milliseconds(300));
+    SessionOptions chosen = options(30);
+    std::atomic<uint16_t> enough = 65535;
+    std::thread hush([&] {
+        while (rover.step < 10) std::this_thread::sleep_for(milliseconds(1));
         rover.silent = true;
         std::this_thread::sleep_for(milliseconds(3500));
+        enough = static_cast<uint16_t>(rover.step + 10);
         rover.silent = false;
     });
+    chosen.ended = [&] { return rover.step > enough; };
     Session session(port, chosen, out);
     session.run();
     hush.join();
@@ -179,7 +186,7 @@ TEST(Session, ARecordingIsWholeAlsoWhenThePortGoesAway) {
     chosen.record = path.string();
     Session session(port, chosen, out);
     std::thread unplug([&line] {
-        std::this_thread::sleep_for(milliseconds(150));
+        std::this_thread::sleep_for(milliseconds(500));
         line.reset();
     });
     EXPECT_THROW(session.run(), host_sim::SerialError);
