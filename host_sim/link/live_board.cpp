@@ -40,8 +40,7 @@ std::string_view name_of(RunEnd end) {
 
 }  // namespace
 
-LiveBoard::LiveBoard(const BoardOptions& options, Pace pace)
-    : options_(options), pace_(pace), board_(options) {}
+LiveBoard::LiveBoard(const BoardOptions& options, Pace pace) : pace_(pace), board_(options) {}
 
 LiveBoard::~LiveBoard() {
     stopping_ = true;

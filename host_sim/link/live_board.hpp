@@ -95,7 +95,6 @@ private:
     void keep_pace(uint64_t slice_t);
     [[nodiscard]] bool hurries() const;
 
-    const BoardOptions options_;
     const Pace pace_;
     Board board_;
     PseudoTerminal line_;

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <future>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -40,11 +39,11 @@ struct BoardCommandOptions {
 class Link {
 public:
     /// @errors  std::runtime_error: there is something else, or it cannot be made
-    Link(fs::path name, const fs::path& target) : name_(std::move(name)) {
+    Link(fs::path name, fs::path target) : name_(std::move(name)), target_(std::move(target)) {
         if (name_.empty()) return;
         std::error_code problem;
         if (fs::is_symlink(fs::symlink_status(name_, problem))) fs::remove(name_, problem);
-        fs::create_symlink(target, name_, problem);
+        fs::create_symlink(target_, name_, problem);
         if (problem) {
             const std::string what = problem.message();
             throw std::runtime_error(fmt::format("{}: cannot be made ({}); choose another --link",
@@ -52,14 +51,16 @@ public:
         }
     }
     ~Link() {
-        std::error_code ignored;
-        if (!name_.empty()) fs::remove(name_, ignored);
+        std::error_code ignored;  // another board may have taken the name over
+        if (!name_.empty() && fs::read_symlink(name_, ignored) == target_) {
+            fs::remove(name_, ignored);
+        }
     }
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
 
 private:
-    fs::path name_;
+    fs::path name_, target_;
 };
 
 /// The EEPROM's content in a file. It replaces the file whole or not at all.
