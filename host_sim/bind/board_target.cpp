@@ -18,25 +18,13 @@ namespace rb85 = hal::rb85;
 namespace {
 
 constexpr uint64_t kTickT = rb85::kTickCount;
-constexpr uint64_t kTicksPerStep = 10;
-constexpr uint64_t kStepT = kTicksPerStep * kTickT;
 constexpr uint64_t kCharacterT = 1600;  // 10 bits of 160 T
-/// Inputs change so long before the step's tick, and longer for the characters of the link.
-constexpr uint64_t kInputLeadT = 2000;
 /// Looks for the end of a step so often.
 constexpr uint64_t kSliceT = 4096;
 /// From a step's first instruction its tick is read in this time; acquisition takes longer.
 constexpr uint64_t kTickReadT = 8000;
 /// So long a step may take at all: the watchdog bites after 0.5 s.
 constexpr uint64_t kHoldMaxT = 5 * kStepT;
-
-/// The percentage whose duty this is: 255/100 of it, rounded to nearest, halves up.
-std::optional<int8_t> percent_of_duty(int duty) {
-    const int size = duty < 0 ? -duty : duty;
-    const int percent = (100 * size + 127) / 255;
-    if ((255 * percent + 50) / 100 != size) return {};
-    return static_cast<int8_t>(duty < 0 ? -percent : percent);
-}
 
 }  // namespace
 
@@ -102,13 +90,6 @@ void BoardTarget::check(RunEnd end) const {
                      violation.pc, symbols_.describe(violation.pc)));
 }
 
-/// The next rising edge of the tick.
-uint64_t BoardTarget::next_tick_t() const {
-    const chips::I82c54& timer = board_.state.timers[0];
-    const uint64_t change_t = timer.next_event_t();
-    return timer.output(rb85::kTickCounter) ? change_t + 1 : change_t;  // low for one clock
-}
-
 uint64_t BoardTarget::tick_of_step_t(uint64_t step) const {
     return tick_zero_t_ + step * kStepT;
 }
@@ -123,38 +104,6 @@ void BoardTarget::run_to_acquire(uint64_t limit_t) {
 
 // -- Inputs
 // --------------------------------------------------------------------------------------
-
-/// What is there whenever the board looks. Potentiometers of steering and mast stay unplugged: a
-/// loop around a recorded angle would turn its motor for ever.
-void BoardTarget::set_levels(const hal::RawInputs& inputs) {
-    const uint64_t t = board_.state.cpu.t;
-    for (uint8_t channel = 0; channel < rover::kSampledChannelCount; ++channel) {
-        const uint16_t sum = inputs.adc_q4_count[channel];
-        if (sum == sums_[channel]) continue;
-        sums_[channel] = sum;
-        board_.replay_sensor(channel, sum);
-    }
-    for (uint8_t wheel = 0; wheel < hal::kWheelCount; ++wheel) {
-        board_.schedule(
-            {t, Stimulus::Kind::tach_connected, wheel, inputs.tach_present >> wheel & 1});
-    }
-    board_.schedule({t, Stimulus::Kind::detectors, 0, inputs.detector_bits});
-    if (inputs.range_present != 0 || inputs.range_scan_count != 0) range_seen_ = true;
-    board_.set_range_connected(range_seen_);
-    chips::RangeModule::Heights heights{};
-    std::copy(std::begin(inputs.range_q1_mm), std::end(inputs.range_q1_mm), heights.begin());
-    board_.replay_range_scan(inputs.range_scan_count, inputs.range_present, heights);
-}
-
-/// Pulses since the step before, also those of a wheel that is absent in the log: the counter goes
-/// where the log's does.
-void BoardTarget::turn_wheels(const hal::RawInputs& inputs) {
-    for (uint8_t wheel = 0; wheel < hal::kWheelCount; ++wheel) {
-        const auto pulses =
-            static_cast<int16_t>(inputs.tach_count[wheel] - last_inputs_.tach_count[wheel]);
-        board_.turn_wheel(wheel, pulses);
-    }
-}
 
 void BoardTarget::send(const std::vector<uint8_t>& bytes) {
     uint64_t t = board_.state.cpu.t;
@@ -171,7 +120,7 @@ void BoardTarget::present_tick(uint16_t tick) {
     if (tick == own) return;
     ++counts_.ticks_written;
     put_word(tick_count_at_, tick);
-    run(std::min(board_.state.cpu.t + kTickReadT, next_tick_t() - kInputLeadT));
+    run(std::min(board_.state.cpu.t + kTickReadT, next_tick_t(board_) - kInputLeadT));
     put_word(tick_count_at_, own);
 }
 
@@ -185,7 +134,7 @@ void BoardTarget::step(std::vector<LogStep>& steps, std::size_t index) {
     step.commands.reset();
     if (step.restart != Restart::none) restart(step.restart, steps);
     if (step_ == 0) {
-        set_levels(step.inputs);
+        pins_.set_levels(board_, step.inputs);
         present_tick(step.inputs.tick_count);
     } else {
         const uint64_t tick_t = tick_of_step_t(step_);
@@ -193,8 +142,8 @@ void BoardTarget::step(std::vector<LogStep>& steps, std::size_t index) {
             kInputLeadT +
             (step.inputs.command_size == 0 ? 0 : kCharacterT * (step.inputs.command_size + 1U));
         run(tick_t - lead_t);
-        set_levels(step.inputs);
-        turn_wheels(step.inputs);
+        pins_.set_levels(board_, step.inputs);
+        pins_.turn_wheels(board_, step.inputs);
         send({step.inputs.command, step.inputs.command + step.inputs.command_size});
         const auto own = static_cast<uint16_t>(first_tick_ + kTicksPerStep * step_);
         if (step.inputs.tick_count != own) {
@@ -208,7 +157,7 @@ void BoardTarget::step(std::vector<LogStep>& steps, std::size_t index) {
     counts_.slowest_step_t = std::max(counts_.slowest_step_t, board_.state.cpu.t - begin_t);
     read_outputs(step);
     awaited_.push_back({index, static_cast<uint16_t>(step_)});
-    last_inputs_ = step.inputs;
+    pins_.set_counts(step.inputs);
     ++step_;
     ++counts_.steps;
     collect(&steps);
@@ -260,28 +209,12 @@ void BoardTarget::await_frames(std::vector<LogStep>& steps, bool hold) {
 // -- Outputs
 // -------------------------------------------------------------------------------------
 
-/// Motors and lasers as they are when the step is over. Without potentiometers the motors of
-/// steering and mast are off and their angles 0; one that runs shows as its duty.
+/// Motors and lasers as they are when the step is over.
 void BoardTarget::read_outputs(LogStep& step) const {
-    hal::Commands& commands = step.commands.emplace();
-    const chips::MotorLatch& motors = board_.state.motors;
-    for (unsigned wheel = 0; wheel < hal::kWheelCount; ++wheel) {
-        const auto percent = percent_of_duty(motors.duty(wheel));
-        if (!percent) {
-            fail(fmt::format("duty {} of drive motor {} stands for no whole percentage",
-                             motors.duty(wheel), wheel));
-        }
-        commands.drive_percent[wheel] = *percent;
-    }
-    for (unsigned motor = 0; motor < hal::kSteerCount; ++motor) {
-        commands.steer_brad[motor] = motors.duty(hal::kWheelCount + motor);
-    }
-    const chips::I82c55a& ppi = board_.state.ppis[0];
-    const unsigned driven =
-        ppi.port_output(chips::I82c55a::Port::c) & ppi.port_output_mask(chips::I82c55a::Port::c);
-    commands.laser_bits = static_cast<uint8_t>(driven & rb85::kLaserMask);
-    if ((driven & rb85::kMastOnBit) != 0) {
-        commands.mast_brad = (driven & rb85::kMastLeftBit) != 0 ? 1 : -1;
+    try {
+        step.commands = commands_of(board_);
+    } catch (const std::range_error& error) {
+        fail(error.what());
     }
 }
 

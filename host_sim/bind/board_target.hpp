@@ -1,5 +1,5 @@
 // board_target.hpp - the image on the simulated board: the controller's other target.
-// Depends on   host_sim/board, host_sim/image; link_frames.hpp.
+// Depends on   host_sim/board, host_sim/image; board_pins.hpp, link_frames.hpp.
 // Contract     what comes out is what the board sends on its pins: telemetry frames, motor latches,
 //              lasers. From its memory only rover_tick_count and rover_step_count are read, for
 //              timing.
@@ -8,7 +8,6 @@
 // Design note  docs/design/targets.md
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -19,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "host_sim/bind/board_pins.hpp"
 #include "host_sim/bind/controller_target.hpp"
 #include "host_sim/bind/link_frames.hpp"
 #include "host_sim/board/board.hpp"
@@ -92,11 +92,8 @@ private:
     void check(RunEnd end) const;
     void run_to_acquire(uint64_t limit_t);
     void run_to_first_step();
-    [[nodiscard]] uint64_t next_tick_t() const;
     [[nodiscard]] uint64_t tick_of_step_t(uint64_t step) const;
 
-    void set_levels(const hal::RawInputs& inputs);
-    void turn_wheels(const hal::RawInputs& inputs);
     void send(const std::vector<uint8_t>& bytes);
     [[nodiscard]] DownlinkFrame ask(UplinkType type, const std::vector<uint8_t>& payload,
                                     uint8_t answer);
@@ -130,14 +127,12 @@ private:
     std::deque<Awaited> awaited_;
     std::vector<DownlinkFrame> other_frames_;
     Counts counts_;
-    uint64_t log_step_ = 0;       ///< steps of the log since begin()
-    uint64_t step_ = 0;           ///< steps since the last restart
-    uint64_t tick_zero_t_ = 0;    ///< T-state of the tick at which step 0 was due
-    uint16_t first_tick_ = 0;     ///< tick count of step 0
-    hal::RawInputs last_inputs_;  ///< of the step before
-    std::array<uint16_t, hal::kAdcChannelCount> sums_{};  ///< as the channels are fed
+    uint64_t log_step_ = 0;     ///< steps of the log since begin()
+    uint64_t step_ = 0;         ///< steps since the last restart
+    uint64_t tick_zero_t_ = 0;  ///< T-state of the tick at which step 0 was due
+    uint16_t first_tick_ = 0;   ///< tick count of step 0
+    InputPins pins_;
     bool awaiting_reset_ = false;  ///< a watchdog reset is what was asked for
-    bool range_seen_ = false;      ///< the log has had a range scan
 };
 
 /// drive() and replay() on the image.

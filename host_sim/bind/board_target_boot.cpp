@@ -16,7 +16,6 @@ namespace rb85 = hal::rb85;
 namespace {
 
 constexpr uint64_t kTickT = rb85::kTickCount;
-constexpr uint64_t kStepT = 10 * kTickT;
 constexpr uint64_t kBootMaxT = 10ULL * rb85::kClockHz;
 constexpr uint64_t kAnswerMaxT = 20 * kStepT;
 constexpr uint64_t kWatchdogMaxT = 2ULL * rb85::kClockHz;
@@ -80,15 +79,13 @@ void BoardTarget::begin(const hal::Calibration& calibration) {
     other_frames_.clear();
     counts_ = {};
     reader_ = {};
-    range_seen_ = false;
-    last_inputs_ = {};
+    pins_ = {};
     if (switched_on_) {
         board_.state = *switched_on_;
     } else {
         switch_on();
         switched_on_ = board_.state;
     }
-    sums_.fill(hal::kAdcAbsent);
     load_calibration(calibration);
     restart_cold();
     begin_steps();
@@ -96,11 +93,8 @@ void BoardTarget::begin(const hal::Calibration& calibration) {
 
 /// Power-up with every sensor unplugged, and the question who it is.
 void BoardTarget::switch_on() {
-    for (uint8_t channel = 0; channel < hal::kAdcChannelCount; ++channel) {
-        board_.replay_sensor(channel, hal::kAdcAbsent);
-    }
-    sums_.fill(hal::kAdcAbsent);
-    set_levels([] {
+    unplug_sensors(board_);
+    pins_.set_levels(board_, [] {
         hal::RawInputs absent;
         for (uint16_t& channel : absent.adc_q4_count) channel = hal::kAdcAbsent;
         return absent;
@@ -175,7 +169,7 @@ void BoardTarget::run_to_first_step() {
 void BoardTarget::begin_steps() {
     step_ = 0;
     first_tick_ = word(tick_count_at_);
-    tick_zero_t_ = next_tick_t() - kTickT;
+    tick_zero_t_ = next_tick_t(board_) - kTickT;
 }
 
 void BoardTarget::restart(Restart kind, std::vector<LogStep>& steps) {

@@ -43,6 +43,7 @@ std::optional<DownlinkFrame> DownlinkReader::take(uint8_t byte, uint64_t end_t) 
             // A byte at a time: nothing can be behind the frame.
             return DownlinkFrame{std::exchange(bytes_, {}), end_t};
         }
+        ++refused_frames_;
         drop_first();
     }
     return {};

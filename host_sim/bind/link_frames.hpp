@@ -42,11 +42,15 @@ public:
     void reset() { bytes_.clear(); }
     /// Bytes so far that belonged to no whole frame.
     [[nodiscard]] uint64_t stray_bytes() const { return stray_bytes_; }
+    /// What looked like a frame and had a wrong check. Its bytes are stray, but for a frame in
+    /// them.
+    [[nodiscard]] uint64_t refused_frames() const { return refused_frames_; }
 
 private:
     void drop_first();
     std::vector<uint8_t> bytes_;
     uint64_t stray_bytes_ = 0;
+    uint64_t refused_frames_ = 0;
 };
 
 enum class UplinkType : uint8_t { identity = 1, status = 2, calibration = 3, restart = 4 };

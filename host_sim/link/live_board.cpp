@@ -21,6 +21,10 @@ constexpr uint64_t kCharacterT = 1600;  // 10 bits of 160 T
 constexpr uint64_t kAheadMax = 64;
 /// With more than this unread, the board waits for its reader instead of hurrying on.
 constexpr std::size_t kUnreadWhileHurrying = 256;
+/// It sends at most so many characters in so long, 50 times as fast as the line: the system passes
+/// them on to the reader's side a moment later, and until then they do not count as unread.
+constexpr uint64_t kBurstMax = 512;
+constexpr std::chrono::milliseconds kBurst{5};
 /// A PC that is so late has lost the time: the board does not run to catch up.
 constexpr std::chrono::milliseconds kLagMax{100};
 
@@ -36,8 +40,7 @@ std::string_view name_of(RunEnd end) {
 
 }  // namespace
 
-LiveBoard::LiveBoard(const BoardOptions& options, Pace pace)
-    : options_(options), pace_(pace), board_(options) {}
+LiveBoard::LiveBoard(const BoardOptions& options, Pace pace) : pace_(pace), board_(options) {}
 
 LiveBoard::~LiveBoard() {
     stopping_ = true;
@@ -147,6 +150,7 @@ void LiveBoard::transmit() {
     for (const auto& character : sent) bytes.push_back(character.byte);
     last_sent_t_ = sent.back().end_t;
     sent_ += bytes.size();
+    burst_ += bytes.size();
     lost_ += bytes.size() - line_.write(bytes);
 }
 
@@ -155,12 +159,17 @@ void LiveBoard::transmit() {
 
 /// Somebody waits for characters that are under way, or may have just got one.
 bool LiveBoard::hurries() const {
-    if (pace_ != Pace::eager || line_.unread() > kUnreadWhileHurrying) return false;
+    if (pace_ != Pace::eager || burst_ > kBurstMax) return false;
+    if (line_.unread() > kUnreadWhileHurrying) return false;
     return std::max(line_free_t_, last_sent_t_) + kSilentT > board_.state.cpu.t;
 }
 
 void LiveBoard::keep_pace(uint64_t slice_t) {
     const Clock::time_point now = Clock::now();
+    if (now - burst_begin_ >= kBurst) {
+        burst_begin_ = now;
+        burst_ = 0;
+    }
     if (hurries()) {
         due_ = now;
         return;

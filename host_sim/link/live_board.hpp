@@ -95,7 +95,6 @@ private:
     void keep_pace(uint64_t slice_t);
     [[nodiscard]] bool hurries() const;
 
-    const BoardOptions options_;
     const Pace pace_;
     Board board_;
     PseudoTerminal line_;
@@ -113,7 +112,9 @@ private:
     // Of the thread.
     uint64_t line_free_t_ = 0;  ///< end of the last character to the board
     uint64_t last_sent_t_ = 0;  ///< end of the last character from it
-    Clock::time_point due_;     ///< when the PC's clock reaches the board's
+    Clock::time_point burst_begin_;
+    uint64_t burst_ = 0;     ///< characters sent since then
+    Clock::time_point due_;  ///< when the PC's clock reaches the board's
 };
 
 }  // namespace host_sim

@@ -1,11 +1,14 @@
 // csv_write.cpp - a log as wide CSV. Cells go through to_chars into a row buffer: formatted streams
 // would take most of the time of a simulated traverse.
 #include <fmt/format.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "host_sim/log/csv_format.hpp"
@@ -99,35 +102,56 @@ char* put_cell(char* out, const Field& field, const std::byte* base) {
     return std::to_chars(out, end, value).ptr;
 }
 
-void append_rows(std::string& out, const Log& log, std::string_view name) {
-    const std::vector<Column> columns = choose_columns(log);
-    out += detail::kTimeColumn;
-    const bool restarts = std::any_of(log.steps.begin(), log.steps.end(), [](const LogStep& step) {
-        return step.restart != Restart::none;
-    });
-    if (restarts) (out += ',') += detail::kRestartColumn;
-    for (const Column& column : columns) (out += ',') += column.field->name;
-    out += '\n';
-    std::vector<char> row((columns.size() + 2) * kCellSizeMax + 1);
-    std::int64_t last_time_ms = -1;
-    for (const LogStep& step : log.steps) {
-        detail::check_step(step, last_time_ms, name);
-        last_time_ms = step.time_ms;
-        char* at = std::to_chars(row.data(), row.data() + kCellSizeMax, step.time_ms).ptr;
-        if (restarts) {
+/// The header line and rows of one CSV.
+class RowWriter {
+public:
+    RowWriter(std::vector<Column> columns, bool restarts)
+        : columns_(std::move(columns)),
+          restarts_(restarts),
+          row_((columns_.size() + 2) * kCellSizeMax + 1) {}
+
+    void append_header(std::string& out) const {
+        out += detail::kTimeColumn;
+        if (restarts_) (out += ',') += detail::kRestartColumn;
+        for (const Column& column : columns_) (out += ',') += column.field->name;
+        out += '\n';
+    }
+
+    void append(std::string& out, const LogStep& step, std::string_view name) {
+        detail::check_step(step, last_time_ms_, name);
+        last_time_ms_ = step.time_ms;
+        char* at = std::to_chars(row_.data(), row_.data() + kCellSizeMax, step.time_ms).ptr;
+        if (restarts_) {
             *at++ = ',';
-            at = std::ranges::copy(detail::restart_names()[static_cast<std::size_t>(step.restart)],
-                                   at)
-                     .out;
+            const auto restart = static_cast<std::size_t>(step.restart);
+            at = std::ranges::copy(detail::restart_names()[restart], at).out;
         }
-        for (const Column& column : columns) {
+        for (const Column& column : columns_) {
             *at++ = ',';
             const std::byte* base = base_of_part(step, column.part);
             if (base != nullptr) at = put_cell(at, *column.field, base);
         }
         *at++ = '\n';
-        out.append(row.data(), static_cast<std::size_t>(at - row.data()));
+        out.append(row_.data(), static_cast<std::size_t>(at - row_.data()));
     }
+
+private:
+    std::vector<Column> columns_;
+    bool restarts_;
+    std::vector<char> row_;
+    std::int64_t last_time_ms_ = -1;
+};
+
+bool has_restart(const LogStep& step) {
+    return step.restart != Restart::none;
+}
+
+unsigned long crc_of(unsigned long before, std::string_view text) {
+    return ::crc32_z(before, reinterpret_cast<const Bytef*>(text.data()), text.size());
+}
+
+std::string checksum_line(unsigned long crc, std::size_t row_count) {
+    return fmt::format("{}{:08X} rows {}\n", detail::kCsvChecksumPrefix, crc, row_count);
 }
 
 std::string encode_named(const Log& log, const CsvOptions& options, std::string_view name) {
@@ -135,11 +159,10 @@ std::string encode_named(const Log& log, const CsvOptions& options, std::string_
     std::string out;
     out.reserve(4096 + log.steps.size() * 384);
     detail::append_csv_head(out, log.head);
-    append_rows(out, log, name);
-    if (options.checksum) {
-        const auto crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(out.data()), out.size());
-        out += fmt::format("{}{:08X} rows {}\n", detail::kCsvChecksumPrefix, crc, log.steps.size());
-    }
+    RowWriter rows(choose_columns(log), std::ranges::any_of(log.steps, has_restart));
+    rows.append_header(out);
+    for (const LogStep& step : log.steps) rows.append(out, step, name);
+    if (options.checksum) out += checksum_line(crc_of(0, out), log.steps.size());
     return out;
 }
 
@@ -151,6 +174,74 @@ std::string encode_csv(const Log& log, const CsvOptions& options) {
 
 void write_csv(const std::filesystem::path& path, const Log& log, const CsvOptions& options) {
     detail::write_file(path, encode_named(log, options, path.string()));
+}
+
+// -- Row by row
+// ----------------------------------------------------------------------------------
+
+struct EstimatesCsvWriter::File {
+    std::filesystem::path path;
+    int descriptor = -1;
+    RowWriter rows{estimate_columns(), true};
+    unsigned long crc = 0;
+    std::size_t row_count = 0;
+
+    static std::vector<Column> estimate_columns() {
+        Log log;
+        log.steps.emplace_back().estimates.emplace();
+        return choose_columns(log);
+    }
+
+    /// One call of the system for all of it, so that a kill does not cut it.
+    void put(std::string_view text) {
+        crc = crc_of(crc, text);
+        if (detail::write_all(descriptor, text) == text.size()) return;
+        detail::fail_system(path, "cannot be written", errno);
+    }
+};
+
+EstimatesCsvWriter::EstimatesCsvWriter(const std::filesystem::path& path, const LogHead& head)
+    : file_(std::make_unique<File>()) {
+    file_->path = path;
+    detail::check_head(head, path.string());
+    std::string text;
+    detail::append_csv_head(text, head);
+    file_->rows.append_header(text);
+    file_->descriptor = detail::open_for_writing(path);
+    if (file_->descriptor < 0) detail::fail_system(path, "cannot be written", errno);
+    file_->put(text);
+}
+
+EstimatesCsvWriter::~EstimatesCsvWriter() {
+    try {
+        close();
+    } catch (const LogError&) {
+        // Said in the header: close() is the way to hear of it.
+    }
+}
+
+void EstimatesCsvWriter::append(const LogStep& step) {
+    if (file_->descriptor < 0) {
+        throw LogError(file_->path.string(), {}, "step appended after close()",
+                       "correct the program that made this log");
+    }
+    std::string row;
+    file_->rows.append(row, step, file_->path.string());
+    file_->put(row);
+    ++file_->row_count;
+}
+
+void EstimatesCsvWriter::close() {
+    if (file_->descriptor < 0) return;
+    const int descriptor = file_->descriptor;
+    const std::string last = checksum_line(file_->crc, file_->row_count);
+    file_->descriptor = -1;
+    const bool written = detail::write_all(descriptor, last) == last.size();
+    const int error = errno;
+    if (::close(descriptor) != 0 && written) {
+        detail::fail_system(file_->path, "cannot be written", errno);
+    }
+    if (!written) detail::fail_system(file_->path, "cannot be written", error);
 }
 
 }  // namespace host_sim

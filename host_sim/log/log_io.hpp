@@ -94,6 +94,27 @@ private:
     int descriptor_ = -1;
 };
 
+/// Writes a wide CSV row by row, for recordings of what a controller said: columns time, restart,
+/// tick_count and the estimates; nothing else of a step is recorded. Each row is handed to the
+/// system whole. Without close(), after a crash, the file lacks its checksum line and reads as
+/// unverified.
+class EstimatesCsvWriter {
+public:
+    /// Creates (or replaces) the file and writes the head and the header line at once.
+    EstimatesCsvWriter(const std::filesystem::path& path, const LogHead& head);
+    ~EstimatesCsvWriter();  ///< as close(); errors are lost
+    EstimatesCsvWriter(const EstimatesCsvWriter&) = delete;
+    EstimatesCsvWriter& operator=(const EstimatesCsvWriter&) = delete;
+
+    /// Appends a step. @errors as encode_csv; then nothing of this step has been written
+    void append(const LogStep& step);
+    void close();  ///< writes the checksum line; append is an error from here on
+
+private:
+    struct File;
+    std::unique_ptr<File> file_;
+};
+
 /// What recover_rlog kept and dropped.
 struct Recovery {
     std::uint64_t steps = 0;          ///< steps in the output

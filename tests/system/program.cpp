@@ -1,13 +1,16 @@
 #include "tests/system/program.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "firmware/link/telemetry.hpp"
 
@@ -58,31 +61,62 @@ bool same(const std::optional<T>& a, const std::optional<T>& b, ToText to_text) 
 
 }  // namespace
 
-Outcome rover85(const std::vector<std::string>& arguments, const std::filesystem::path& cwd) {
-    const Folder folder;
+Process::Process(const std::vector<std::string>& arguments, const std::filesystem::path& cwd) {
     std::vector<std::string> words = {ROVER85_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    const pid_t child = fork();
-    if (child < 0) throw std::runtime_error("fork failed");
-    if (child == 0) {
-        redirect(folder / "out", STDOUT_FILENO);
-        redirect(folder / "err", STDERR_FILENO);
+    child_ = fork();
+    if (child_ < 0) throw std::runtime_error("fork failed");
+    if (child_ == 0) {
+        redirect(folder_ / "out", STDOUT_FILENO);
+        redirect(folder_ / "err", STDERR_FILENO);
         if (!cwd.empty() && chdir(cwd.c_str()) != 0) _exit(126);
         execv(ROVER85_PROGRAM, argv.data());
         _exit(127);
     }
+}
+
+Process::~Process() {
+    if (child_ < 0) return;
+    kill(child_, SIGKILL);
+    (void)wait();
+}
+
+void Process::signal(int number) const {
+    kill(child_, number);
+}
+
+std::string Process::out() const {
+    const std::string file = folder_ / "out";
+    return std::filesystem::exists(file) ? read_bytes(file) : "";
+}
+
+bool Process::says(const std::string& text) const {
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (out().find(text) == std::string::npos) {
+        if (std::chrono::steady_clock::now() > limit) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return true;
+}
+
+Outcome Process::wait() {
     int status = 0;
     rusage usage{};
-    if (wait4(child, &status, 0, &usage) != child) throw std::runtime_error("wait4 failed");
+    if (wait4(child_, &status, 0, &usage) != child_) throw std::runtime_error("wait4 failed");
+    child_ = -1;
     Outcome run;
     if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
-    run.out = read_bytes(folder / "out");
-    run.err = read_bytes(folder / "err");
+    run.out = read_bytes(folder_ / "out");
+    run.err = read_bytes(folder_ / "err");
     run.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     return run;
+}
+
+Outcome rover85(const std::vector<std::string>& arguments, const std::filesystem::path& cwd) {
+    return Process(arguments, cwd).wait();
 }
 
 Folder::Folder() {

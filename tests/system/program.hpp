@@ -2,6 +2,8 @@
 // Needs   ROVER85_PROGRAM, the path of the program that the build made.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,9 +17,6 @@ struct Outcome {
     std::string out, err;
     double cpu_s = 0;  ///< user and system time of the process
 };
-
-/// Runs rover85 with these arguments in the folder `cwd` (the current one when empty).
-Outcome rover85(const std::vector<std::string>& arguments, const std::filesystem::path& cwd = {});
 
 /// A folder of one test, removed with it.
 class Folder {
@@ -34,6 +33,33 @@ public:
 private:
     std::filesystem::path path_;
 };
+
+/// rover85 in a process of its own, beside the test.
+class Process {
+public:
+    /// Starts it in the folder `cwd` (the current one when empty).
+    explicit Process(const std::vector<std::string>& arguments,
+                     const std::filesystem::path& cwd = {});
+    ~Process();  ///< kills it, unless wait() has come back
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    /// Sends it a signal.
+    void signal(int number) const;
+    /// What it has written so far to standard output.
+    [[nodiscard]] std::string out() const;
+    /// Waits until `text` stands on its standard output. @return false: not within 20 s
+    [[nodiscard]] bool says(const std::string& text) const;
+    /// Waits for its end.
+    Outcome wait();
+
+private:
+    Folder folder_;
+    pid_t child_ = -1;
+};
+
+/// Runs rover85 with these arguments in the folder `cwd` (the current one when empty).
+Outcome rover85(const std::vector<std::string>& arguments, const std::filesystem::path& cwd = {});
 
 std::string read_bytes(const std::filesystem::path& file);
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/rover85/board_command.hpp"
 #include "tools/rover85/budget_command.hpp"
 #include "tools/rover85/calibrate_command.hpp"
 #include "tools/rover85/command_errors.hpp"
@@ -16,6 +17,7 @@
 #include "tools/rover85/image_beside.hpp"
 #include "tools/rover85/import_command.hpp"
 #include "tools/rover85/main_job_command.hpp"
+#include "tools/rover85/monitor_command.hpp"
 #include "tools/rover85/recover_command.hpp"
 #include "tools/rover85/replay_command.hpp"
 #include "tools/rover85/simulate_command.hpp"
@@ -44,6 +46,8 @@ int main(int argc, char** argv) {
     add_report_command(app, exit_code);
     add_debug_command(app, exit_code);
     add_flash_command(app, exit_code);
+    add_monitor_command(app, exit_code);
+    add_board_command(app, exit_code);
     add_budget_command(app, exit_code);
     add_main_job_command(app, exit_code);
     try {

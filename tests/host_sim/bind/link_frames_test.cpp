@@ -118,4 +118,17 @@ TEST(DownlinkReader, RubbishBetweenFramesIsCounted) {
     EXPECT_EQ(reader.stray_bytes(), rubbish);
 }
 
+TEST(DownlinkReader, CountsFramesWithAWrongCheck) {
+    DownlinkReader reader;
+    Bytes bytes = telemetry_frame(7);
+    bytes[20] ^= 0x10;
+    for (const uint8_t byte : bytes) EXPECT_FALSE(reader.take(byte, 0));
+    EXPECT_EQ(reader.refused_frames(), 1u);
+    EXPECT_EQ(reader.stray_bytes(), bytes.size());
+    std::size_t whole = 0;
+    for (const uint8_t byte : telemetry_frame(8)) whole += reader.take(byte, 0) ? 1U : 0U;
+    EXPECT_EQ(whole, 1u);
+    EXPECT_EQ(reader.refused_frames(), 1u);
+}
+
 }  // namespace

@@ -70,8 +70,11 @@ TEST(PseudoTerminal, WithoutAReaderAFewBytesWaitAndTheRestIsNotTaken) {
     PseudoTerminal terminal;
     // The system passes bytes on a moment later.
     const auto write = [&terminal](std::size_t count) {
+        const std::size_t before = terminal.unread();
         const std::size_t taken = terminal.write(Bytes(count, 0x55));
-        std::this_thread::sleep_for(milliseconds(20));
+        for (int i = 0; i < 2000 && terminal.unread() != before + taken; ++i) {
+            std::this_thread::sleep_for(milliseconds(1));
+        }
         return taken;
     };
     EXPECT_EQ(write(1000), 1000u);

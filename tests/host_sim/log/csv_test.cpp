@@ -5,6 +5,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "host_sim/log/log_io.hpp"
@@ -421,6 +423,59 @@ TEST(LogError, IsOnePrintableLineWithPlaceReasonAndAdvice) {
                  "a.rlog:byte 0: what; advice");
     EXPECT_STREQ(LogError("a\nb", {}, "what", "advice").what(), "a?b: what; advice");
     EXPECT_TRUE(refused_at("time_ms,\x1B[31m" + std::string(99, 'a') + "\n", 1, "\"?[31maaaa"));
+}
+
+/// The content of a file that is written, at any moment.
+std::string file_text(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(EstimatesCsv, EachRowIsThereAtOnceAndCloseAddsTheChecksum) {
+    const auto path = std::filesystem::temp_directory_path() / "rover85_estimates.csv";
+    host_sim::LogHead head;
+    head.image_identity = "an image";
+    host_sim::EstimatesCsvWriter writer(path, head);
+    EXPECT_EQ(read_csv(file_text(path), "x").steps.size(), 0u);
+    host_sim::LogStep step = log_test::LogMaker(3).make(1).steps[0];
+    step.estimates.emplace().position_q4_mm = -12345;
+    step.inputs.tick_count = 777;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        step.time_ms = 100 * i;
+        step.restart = i == 1 ? host_sim::Restart::cold : host_sim::Restart::none;
+        writer.append(step);
+        const Log log = read_csv(file_text(path), "x");
+        EXPECT_TRUE(log.unverified);
+        ASSERT_EQ(log.steps.size(), i + 1u);
+        EXPECT_EQ(log.steps.back().restart, step.restart);
+        EXPECT_EQ(log.steps.back().inputs.tick_count, 777);
+        EXPECT_EQ(log.steps.back().estimates->position_q4_mm, -12345);
+        EXPECT_FALSE(log.steps.back().truth || log.steps.back().commands);
+    }
+    const std::string open = file_text(path);
+    writer.close();
+    EXPECT_EQ(file_text(path), open + checksum_line(open, 3));
+    EXPECT_FALSE(read_csv(file_text(path), "x").unverified);
+    EXPECT_EQ(read_csv(file_text(path), "x").head.image_identity, "an image");
+    EXPECT_THROW(writer.append(step), LogError);
+    std::filesystem::remove(path);
+}
+
+TEST(EstimatesCsv, ARowThatIsRefusedLeavesTheFileWhole) {
+    const auto path = std::filesystem::temp_directory_path() / "rover85_estimates_refused.csv";
+    {
+        host_sim::EstimatesCsvWriter writer(path, {});
+        host_sim::LogStep step;
+        step.time_ms = 100;
+        writer.append(step);
+        EXPECT_THROW(writer.append(step), LogError) << "time does not increase";
+        step.time_ms = 200;
+        writer.append(step);
+    }
+    const Log log = read_csv(file_text(path), "x");
+    EXPECT_FALSE(log.unverified) << "the destructor closes";
+    EXPECT_EQ(log.steps.size(), 2u);
+    std::filesystem::remove(path);
 }
 
 }  // namespace
