@@ -293,7 +293,9 @@ std::vector<DisabledStretch> disabled_stretches(const FlowProgram& program) {
         stretches.push_back({handler.name, kAcceptT + t});
     }
     for (const uint16_t address : disables_of_step(program)) {
-        stretches.push_back({source_place(program.symbols(), address),
+        const host_sim::Symbol* function = program.symbols().function_at(address);
+        const std::string place = function == nullptr ? "step" : function->name;
+        stretches.push_back({fmt::format("{}, DI at {:04X}H", place, address),
                              StretchFinder(program, false).from(address, Enable::off)});
     }
     return stretches;

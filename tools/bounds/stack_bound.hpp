@@ -33,7 +33,7 @@ struct StackBound {
 
 /// A stretch of the program during which no interrupt but TRAP is accepted.
 struct DisabledStretch {
-    std::string place;  ///< a handler, or the source line of a DI
+    std::string place;  ///< a handler, or the function and address of a DI
     uint32_t t = 0;  ///< from the acceptance, or the beginning of DI, to the instruction behind EI
 };
 

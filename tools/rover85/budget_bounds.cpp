@@ -9,6 +9,7 @@
 #include "host_sim/bind/host_target.hpp"
 #include "host_sim/bind/random_log.hpp"
 #include "host_sim/log/log_io.hpp"
+#include "tools/bounds/request_log.hpp"
 #include "tools/bounds/tables.hpp"
 #include "tools/budget/budget_error.hpp"
 #include "tools/budget/reviewed.hpp"
@@ -62,10 +63,13 @@ public:
 
     void run() {
         ProgressBar bar("Checking");
-        const auto all = static_cast<double>(options_.logs.size() + options_.random_logs);
+        const auto all = static_cast<double>(2 * options_.logs.size() + options_.random_logs);
         double flown = 0;
         for (const fs::path& path : options_.logs) {
-            fly(host_sim::load_log(path));
+            const host_sim::Log log = host_sim::load_log(path);
+            fly(log);
+            bar.update(++flown / all);
+            fly(rover_bounds::with_requests(log));
             bar.update(++flown / all);
         }
         for (uint64_t i = 0; i < options_.random_logs; ++i) {
@@ -148,9 +152,11 @@ int show_bounds(const BoundsOptions& options) {
 
     const Observed& observed = observer.observed();
     fmt::print("{}", rover_bounds::console_text(program, bounds, observed));
-    fmt::print("\n{} steps of {} logs and {} random ones: {}.\n", observed.steps,
-               options.logs.size(), options.random_logs,
-               observed.violations.empty() ? "nothing above its bound" : "bounds exceeded");
+    fmt::print(
+        "\n{} steps of {} logs, as they are and with requests in every step, and {} random ones: "
+        "{}.\n",
+        observed.steps, options.logs.size(), options.random_logs,
+        observed.violations.empty() ? "nothing above its bound" : "bounds exceeded");
     if (!options.json.empty()) {
         write(options.json, rover_bounds::json_text(program, bounds, observed));
     }
