@@ -37,7 +37,8 @@ FlowProgram::FlowProgram(const host_sim::Image& image, const host_sim::Symbols& 
     take_notes(map);
     std::vector<uint16_t> roots = {kReset};
     for (const auto& [name, vector] : kVectors) {
-        if (!image.present[vector]) continue;
+        const host_sim::Symbol* function = symbols.function_at(vector);
+        if (function == nullptr || function->address != vector) continue;
         handlers_.push_back({name, vector});
         roots.push_back(vector);
     }

@@ -31,6 +31,7 @@ struct Handler {
 
 class FlowProgram {
 public:
+    /// @param image, symbols  must outlive the program
     /// @errors BudgetError: see above
     FlowProgram(const host_sim::Image& image, const host_sim::Symbols& symbols,
                 const rover_budget::ImageMap& map, FlowTable table);
