@@ -5,8 +5,7 @@
 //              largest sum of times T-states is an upper bound, because every path of the program
 //              is a solution.
 // Depends on   flow_program.hpp, GLPK (the source).
-// Source       Li, Malik, "Performance analysis of embedded software using implicit path
-//              enumeration", DAC 1995.
+// Source       [Li 1995] in docs/references.md.
 #pragma once
 
 #include <cstdint>

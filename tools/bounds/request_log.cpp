@@ -14,10 +14,17 @@ host_sim::Log with_requests(host_sim::Log log) {
         const std::vector<uint8_t> frame = host_sim::uplink_frame(type, payload);
         stream.insert(stream.end(), frame.begin(), frame.end());
     };
-    // 53 bytes: no multiple of what a step takes.
-    add(UplinkType::calibration, host_sim::calibration_payload(log.head.calibration));
+    const std::vector<uint8_t> calibration = host_sim::calibration_payload(log.head.calibration);
+    constexpr auto kUnknown = static_cast<UplinkType>(0x7E);
+    // 127 bytes: each begins at every byte of a step.
+    add(UplinkType::calibration, calibration);
+    add(kUnknown, std::vector<uint8_t>(9));  // with the end of the one before a step's 16 bytes
+    add(UplinkType::status);
+    add(UplinkType::calibration, calibration);
     add(UplinkType::status);
     add(UplinkType::identity);
+    add(UplinkType::calibration);  // of a wrong size
+    add(UplinkType::calibration);
     std::size_t next = 0;
     for (host_sim::LogStep& step : log.steps) {
         step.inputs.command_size = hal::kCommandBytesMax;

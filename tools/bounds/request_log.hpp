@@ -6,9 +6,9 @@
 
 namespace rover_bounds {
 
-/// The same drive under a stream of calibration, status and identity frames without a pause, 16
-/// bytes a step. The frames' ends fall on every byte of a step in turn. The calibration is the
-/// log's own.
+/// The same drive under a stream of calibration, status, identity and refused frames without a
+/// pause, 16 bytes a step. The frames' ends fall on every byte of a step in turn. The calibration
+/// is the log's own.
 [[nodiscard]] host_sim::Log with_requests(host_sim::Log log);
 
 }  // namespace rover_bounds

@@ -2,8 +2,7 @@
 // Depends on   the standard library.
 // Method       R = blocking + own + sum over what can cut in of ceil(R / period) x its T-states,
 //              the smallest solution; a task whose R is not below its period for ever has none.
-// Source       Joseph, Pandya, "Finding response times in a real-time system", Computer Journal
-//              29(5), 1986.
+// Source       [Joseph 1986] in docs/references.md.
 // Design note  docs/design/bounds.md, "Response times"
 #pragma once
 

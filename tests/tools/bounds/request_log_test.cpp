@@ -21,14 +21,20 @@ TEST(WithRequests, EveryStepHasSixteenBytesOfWholeFramesInARow) {
         EXPECT_TRUE(std::equal(frame.begin(), frame.end(), begin)) << at;
     };
     using host_sim::UplinkType;
-    const auto calibration =
-        uplink_frame(UplinkType::calibration, host_sim::calibration_payload(log.head.calibration));
+    const auto payload = host_sim::calibration_payload(log.head.calibration);
+    const auto calibration = uplink_frame(UplinkType::calibration, payload);
+    const auto wrong_size = uplink_frame(UplinkType::calibration);
     ASSERT_EQ(calibration.size(), 41U);
-    for (const std::size_t at : {0U, 53U, 106U}) {
+    for (const std::size_t at : {0U, 127U}) {
         expect(at, calibration);
-        expect(at + 41, uplink_frame(UplinkType::status));
-        expect(at + 47, uplink_frame(UplinkType::identity));
+        expect(at + 56, uplink_frame(UplinkType::status));
+        expect(at + 62, calibration);
+        expect(at + 103, uplink_frame(UplinkType::status));
+        expect(at + 109, uplink_frame(UplinkType::identity));
+        expect(at + 115, wrong_size);
+        expect(at + 121, wrong_size);
     }
+    EXPECT_EQ(bytes[41 + 3], 9) << "the size of the frame of an unknown type";
 }
 
 }  // namespace
