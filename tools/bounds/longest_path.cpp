@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tools/budget/budget_error.hpp"
+
 namespace rover_bounds {
 namespace {
 
@@ -215,6 +217,22 @@ private:
     std::map<uint16_t, Part> parts_;
 };
 
+/// Is there a loop in it that is never left?
+bool has_endless_loop(const FlowProgram& program, uint16_t entry) {
+    for (const uint16_t reached : program.graph().reached_from(entry)) {
+        for (const BoundedLoop& loop : program.loops(reached)) {
+            if (loop.kind == LoopKind::endless) return true;
+        }
+    }
+    return false;
+}
+
+[[noreturn]] void refuse(const FlowProgram& program, const std::string& name) {
+    throw rover_budget::BudgetError(program.table().file, 0,
+                                    "no way through " + name + " agrees with all its facts",
+                                    "correct the fact that contradicts the code");
+}
+
 }  // namespace
 
 std::optional<PathBound> longest_path(const FlowProgram& program, uint16_t entry) {
@@ -222,12 +240,14 @@ std::optional<PathBound> longest_path(const FlowProgram& program, uint16_t entry
     if (root.stated_t) {
         return PathBound{*root.stated_t, {{entry, {1, static_cast<double>(*root.stated_t)}}}};
     }
-    return PathProgram(program, root, program.loops(entry), false).solve();
+    auto bound = PathProgram(program, root, program.loops(entry), false).solve();
+    if (!bound && !has_endless_loop(program, entry)) refuse(program, root.name);
+    return bound;
 }
 
 PathBound longest_step(const FlowProgram& program) {
     const auto bound = PathProgram(program, program.step(), program.step_loops(), true).solve();
-    if (!bound) throw std::logic_error("the step never ends");
+    if (!bound) refuse(program, program.step().name);
     return *bound;
 }
 

@@ -29,10 +29,11 @@ struct PathBound {
 };
 
 /// @return  nothing: it never ends
+/// @errors  BudgetError: flow facts with which it cannot end
 [[nodiscard]] std::optional<PathBound> longest_path(const FlowProgram& program, uint16_t entry);
 
 /// Of the step's work: one turn of main's loop without its waiting.
-/// @errors std::logic_error: it never ends
+/// @errors  BudgetError as above
 [[nodiscard]] PathBound longest_step(const FlowProgram& program);
 
 }  // namespace rover_bounds

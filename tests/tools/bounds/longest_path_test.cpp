@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tools/bounds/sample_program.hpp"
+#include "tools/budget/budget_error.hpp"
 
 namespace {
 
@@ -73,6 +74,20 @@ TEST(LongestPath, AFactLimitsTheSumOverAllCalls) {
               kTwoCallsT + 2 * turns_t(9));
     const auto limited = sample.flow(kMainIsEndless + "fact,x::part()#1 <= 11,why\n");
     EXPECT_EQ(longest_path(limited, sample.at("work"))->t, kTwoCallsT + turns_t(9) + turns_t(2));
+}
+
+TEST(LongestPath, AFactThatContradictsTheCodeIsRefused) {
+    const Sample sample = two_calls();
+    const auto program = sample.flow(kMainIsEndless + "fact,x::part() <= 1,it is called twice\n");
+    try {
+        (void)longest_path(program, sample.at("work"));
+        FAIL();
+    } catch (const rover_budget::BudgetError& error) {
+        EXPECT_STREQ(error.what(),
+                     "flow.csv: no way through x::work() agrees with all its facts; correct the "
+                     "fact that contradicts the code");
+    }
+    EXPECT_THROW((void)longest_step(program), rover_budget::BudgetError);
 }
 
 TEST(LongestPath, BelowAFunctionOfAFactTheFactSaysNothing) {
