@@ -16,6 +16,7 @@ using system_test::rover85;
 using system_test::write_bytes;
 using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::Not;
 
 const fs::path kSource = ROVER_SOURCE_DIR;
 
@@ -116,12 +117,73 @@ TEST(Budget, NamedLogsAreMeasuredAndNotCompared) {
     EXPECT_THAT(run.out, HasSubstr("not compared"));
 }
 
+TEST(BudgetBounds, NothingIsAboveItsBoundAndEveryDeadlineHolds) {
+    // The stored logs, as they are and with requests in every step, and some random ones.
+    const Tree tree;
+    const std::string json = tree.file("bounds.json");
+    const Outcome run =
+        rover85({"budget", "--bounds", "--budgets", (kSource / "tests/budgets").string(),
+                 "--random", "10", "--json", json});
+    EXPECT_EQ(run.exit_code, 0) << run.err << run.out;
+    EXPECT_THAT(run.out, HasSubstr("nothing above its bound"));
+    EXPECT_THAT(run.out, ContainsRegex("All [0-9]+ numbers are the reviewed ones"));
+    EXPECT_THAT(run.out, Not(HasSubstr("  NO\n")));
+    const auto document = nlohmann::json::parse(read_bytes(json));
+    const auto& step = document["tasks"][0];
+    // The requirement: a bound within 1.6 of the worst that is seen.
+    EXPECT_LE(step["bound_t"].get<double>(), 1.6 * step["observed_t"].get<double>());
+    EXPECT_EQ(document["deadlines"].size(), 4U);
+    for (const auto& deadline : document["deadlines"]) EXPECT_TRUE(deadline["holds"]);
+}
+
+/// Replaces a text in a file of the tree's budgets, and flies its one log.
+Outcome bounds_with(const char* name, const std::string& text, const std::string& instead) {
+    const Tree tree;
+    const fs::path file = tree.budgets() / name;
+    std::string content = read_bytes(file);
+    const std::size_t at = content.find(text);
+    EXPECT_NE(at, std::string::npos) << text;
+    content.replace(at, text.size(), instead);
+    write_bytes(file, content);
+    return tree.budget({"--bounds"});
+}
+
+TEST(BudgetBounds, ALoopWithoutABoundIsAnErrorWithItsSourceLine) {
+    const Outcome run = bounds_with("flow.csv", "turns,*::side_step(*#1 3,", "# ");
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_THAT(run.err, ContainsRegex("firmware/inputs/odometer.hpp:[0-9]+: .*side_step.*loop 1"));
+    EXPECT_THAT(run.err, HasSubstr("the loop has no bound"));
+}
+
+TEST(BudgetBounds, ABoundThatIsTooLowIsSeen) {
+    const Outcome run =
+        bounds_with("flow.csv", "turns,*::side_step(*#1 3,", "turns,*::side_step(*#1 2,");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.err, ContainsRegex("exceeded: .*side_step.*loop 1: more than 2 turns"));
+}
+
+TEST(BudgetBounds, AFactThatIsWrongIsSeenWithItsLine) {
+    const Outcome run = bounds_with("flow.csv", "fact,*::push_all(*#1 <= 50 *::queue_frame(*",
+                                    "fact,*::push_all(*#1 <= 49 *::queue_frame(*");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.err, ContainsRegex("exceeded: .*flow.csv:[0-9]+: does not hold in a step"));
+}
+
+TEST(BudgetBounds, AnotherNumberFails) {
+    const Outcome run = bounds_with("bounds.json", "\"bound.stack\": ", "\"bound.stack\": 1");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.err, HasSubstr("1 of "));
+    EXPECT_THAT(run.out, HasSubstr("bound.stack"));
+}
+
 TEST(Budget, WhatCannotBeUsedIsNamed) {
     const Tree tree;
     EXPECT_EQ(tree.budget({"--image", "none.hex"}).exit_code, 3);
     EXPECT_EQ(tree.budget({"--against", "none.json"}).exit_code, 3);
     EXPECT_EQ(rover85({"budget", "--budgets", tree.file("none")}).exit_code, 3);
     EXPECT_EQ(tree.budget({"--update", "x.rlog"}).exit_code, 2);
+    EXPECT_EQ(tree.budget({"--random", "3"}).exit_code, 2);
+    EXPECT_EQ(tree.budget({"--bounds", "--html", "x.html"}).exit_code, 2);
 }
 
 }  // namespace

@@ -118,6 +118,10 @@ ImageMap parse_map(std::string_view text, std::string_view file) {
         if (words.kind() == "range") read_range(words, map);
         if (words.kind() == "section") read_section(words, map);
         if (words.kind() == "function") read_function(words, map);
+        if (words.kind() == "note") {
+            const uint32_t address = words.number(16);
+            map.notes.push_back({address, words.rest()});
+        }
         if (words.kind() == "region") {
             const std::string name = words.word();
             const uint32_t first = words.number(16);

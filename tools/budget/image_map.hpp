@@ -25,6 +25,12 @@ struct MapFunction {
     std::string name;
 };
 
+/// What the compiler or a source says about an address: "loop 6", "t 72 to 7579".
+struct MapNote {
+    uint32_t address = 0;
+    std::string text;
+};
+
 struct MapRegion {
     uint32_t first = 0, size = 0;
 };
@@ -34,6 +40,7 @@ struct ImageMap {
     std::map<std::string, MapRegion, std::less<>> regions;
     std::vector<MapSection> sections;
     std::vector<MapFunction> functions;
+    std::vector<MapNote> notes;
 
     /// @errors BudgetError when the map has no such region
     [[nodiscard]] const MapRegion& region(std::string_view name) const;

@@ -63,11 +63,11 @@ Numbers parse_numbers(std::string_view text, std::string_view file) {
     return numbers;
 }
 
-std::string reviewed_text(const Numbers& numbers) {
+std::string reviewed_text(const Numbers& numbers, std::string_view command, std::string_view page) {
     const nlohmann::ordered_json document = {
-        {"about",
-         "Reviewed numbers of the image: `rover85 budget` fails while one differs, "
-         "`rover85 budget --update` writes them. docs/design/budget.md"},
+        {"about", fmt::format("Reviewed numbers of the image: `{0}` fails while one differs, "
+                              "`{0} --update` writes them. {1}",
+                              command, page)},
         {"numbers", numbers}};
     return document.dump(2) + "\n";
 }

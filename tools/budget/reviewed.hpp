@@ -31,7 +31,10 @@ struct Difference {
 [[nodiscard]] Numbers parse_numbers(std::string_view text, std::string_view file);
 
 /// The reviewed file, a number a line.
-[[nodiscard]] std::string reviewed_text(const Numbers& numbers);
+/// @param command  which compares them, and with --update writes them
+[[nodiscard]] std::string reviewed_text(const Numbers& numbers,
+                                        std::string_view command = "rover85 budget",
+                                        std::string_view page = "docs/design/budget.md");
 
 /// What a number may be at most, by the project's requirements.
 struct Limit {

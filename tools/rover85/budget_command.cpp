@@ -14,6 +14,7 @@
 #include "tools/budget/budget_error.hpp"
 #include "tools/budget/documents.hpp"
 #include "tools/budget/measure.hpp"
+#include "tools/rover85/budget_bounds.hpp"
 #include "tools/rover85/command_errors.hpp"
 #include "tools/rover85/image_beside.hpp"
 #include "tools/rover85/progress_bar.hpp"
@@ -31,6 +32,8 @@ struct BudgetOptions {
     std::vector<std::string> logs;
     std::string folder, json, html, markdown, against;
     bool update = false;
+    bool bounds = false;
+    std::uint64_t random_logs = 0, seed = 1;
 };
 
 /// tests/budgets of the tree in which this program, or the current folder, is.
@@ -120,8 +123,18 @@ int verdict(const BudgetOptions& options, const fs::path& folder, const Review& 
     return kExitDifference;
 }
 
+int bounds(const BudgetOptions& options, const fs::path& folder) {
+    BoundsOptions bounds{options.target, folder,        {}, options.random_logs, options.seed,
+                         options.json,   options.update};
+    bounds.logs.assign(options.logs.begin(), options.logs.end());
+    if (bounds.logs.empty())
+        bounds.logs = rover_budget::logs_below(folder.parent_path() / "golden");
+    return show_bounds(bounds);
+}
+
 int budget(const BudgetOptions& options) {
     const fs::path folder = find_folder(options.folder);
+    if (options.bounds) return bounds(options, folder);
     Review review = measured(options, folder);
     compare(options, folder, review);
     fmt::print("{}", rover_budget::console_text(review));
@@ -155,6 +168,20 @@ void add_budget_command(CLI::App& app, int& exit_code) {
     CLI::Option* update =
         command.add_flag("--update", options->update, "Write the numbers as the reviewed ones");
     command.get_option("LOGS")->excludes(update);
+    CLI::Option* bounds_flag = command.add_flag(
+        "--bounds", options->bounds,
+        "Upper bounds instead: functions, step, handlers, stack, response times, and whether the "
+        "logs keep to them");
+    for (const char* other : {"--html", "--markdown", "--against"}) {
+        bounds_flag->excludes(command.get_option(other));
+    }
+    command.add_option("--random", options->random_logs, "With --bounds: fly random logs as well")
+        ->check(CLI::Range(1, 1'000'000))
+        ->needs(bounds_flag);
+    command.add_option("--seed", options->seed, "Of the first random log; each has the next one")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str()
+        ->needs(bounds_flag);
     command
         .add_option("--budgets", options->folder,
                     "Folder of modules, limits and reviewed numbers [default: tests/budgets of "
@@ -162,12 +189,14 @@ void add_budget_command(CLI::App& app, int& exit_code) {
         ->type_name("DIR");
     command.footer(
         "Exit code 1 when a number differs from its reviewed one, better or worse, or a function\n"
-        "belongs to no module.\n"
+        "belongs to no module; with --bounds, when a log exceeds a bound or a deadline does not "
+        "hold.\n"
         "Examples:\n"
         "  rover85 budget\n"
         "  rover85 budget --json now.json --html budget.html --against before.json\n"
         "  rover85 budget out/main/traverse.rlog\n"
-        "  rover85 budget --update");
+        "  rover85 budget --update\n"
+        "  rover85 budget --bounds --random 1000");
     command.callback(
         [options, &exit_code] { exit_code = guarded_on_target([&] { return budget(*options); }); });
 }

@@ -40,7 +40,7 @@ run_as() {
 machine
 run_as 0 run
 expect_equal "a bare machine succeeds" "$code" 0
-expect_contains "says what it installs" "$output" "Installing 13 Debian packages"
+expect_contains "says what it installs" "$output" "Installing 14 Debian packages"
 all_run=$(sed -n 's/.*first run): //p' <<<"$output")
 expect_contains "asks for a compiler" "$all_run" build-essential
 expect_contains "asks for what the image needs" "$all_run" "clang-19"
