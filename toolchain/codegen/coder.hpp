@@ -189,6 +189,10 @@ inline constexpr uint8_t kNop = 0x00, kLxi = 0x01, kStax = 0x02, kInx = 0x03, kI
                          kJc = 0xDA, kIn = 0xDB, kXthl = 0xE3, kPchl = 0xE9, kXchg = 0xEB,
                          kPopPsw = 0xF1, kJp = 0xF2, kDi = 0xF3, kPushPsw = 0xF5, kSphl = 0xF9,
                          kJm = 0xFA, kEi = 0xFB, kDadSp = 0x39, kLxiSp = 0x31;
+// Undocumented: HL = HL - BC; HL to the right, with its sign; DE to the left through the carry;
+// DE = HL + d8; a word from and to where DE points.
+inline constexpr uint8_t kDsub = 0x08, kArhl = 0x10, kRdel = 0x18, kLdhi = 0x28, kShlx = 0xD9,
+                         kLhlx = 0xED;
 }  // namespace op
 
 namespace alu {

@@ -44,6 +44,40 @@ ResourceSet condition_of(uint8_t opcode) {
     return condition == 2 || condition == 3 ? kCarry : kSign;
 }
 
+/// The undocumented ones that move or compute. @return  false: it is none of them
+bool undocumented(Effects& effects, uint8_t opcode) {
+    switch (opcode) {
+        case 0x08:  // DSUB
+            effects.reads |= kHl | kBc;
+            effects.writes |= kHl | kFlags;
+            break;
+        case 0x10:  // ARHL
+            effects.reads |= kHl;
+            effects.writes |= kHl | kCarry;
+            break;
+        case 0x18:  // RDEL
+            effects.reads |= kDe | kCarry;
+            effects.writes |= kDe | kCarry;
+            break;
+        case 0x28:  // LDHI
+            effects.reads |= kHl;
+            effects.writes |= kDe;
+            break;
+        case 0xD9:  // SHLX
+        case 0xED:  // LHLX
+            effects.pointer = 1;
+            effects.size = 2;
+            effects.reads |= kDe;
+            effects.memory = opcode == 0xD9 ? MemoryAccess::write : MemoryAccess::read;
+            (opcode == 0xD9 ? effects.reads : effects.writes) |= kHl;
+            return true;
+        default:
+            return false;
+    }
+    effects.pure = true;
+    return true;
+}
+
 // 00H to 3FH.
 void low_quarter(Effects& effects, uint8_t opcode) {
     const unsigned which = opcode >> 3 & 7U;
@@ -174,6 +208,7 @@ Effects effects_of(const CodeItem& item) {
     const uint8_t opcode = item.opcode;
     const unsigned to = opcode >> 3 & 7U;
     const unsigned from = opcode & 7U;
+    if (undocumented(effects, opcode)) return effects;
     if (opcode < 0x40) {
         low_quarter(effects, opcode);
     } else if (opcode < 0x80) {

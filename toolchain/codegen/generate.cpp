@@ -37,7 +37,9 @@ CodeOperand number(int32_t value) {
 class Generator {
 public:
     Generator(const Module& module, const Function& function, const GenerateOptions& options)
-        : module_(module), options_(options), facts_(find_facts(function)) {}
+        : module_(module), options_(options), facts_(find_facts(function)) {
+        facts_.undocumented = options.undocumented;
+    }
 
     FunctionCode run() {
         next_label_ = static_cast<uint32_t>(facts_.function.blocks.size());

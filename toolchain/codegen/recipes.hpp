@@ -90,6 +90,9 @@ using Wanted = std::array<ByteId, 8>;
 /// A way to do A = A operation byte with A kept from being used for anything else.
 void alu_on_a(Coder& coder, unsigned operation, ByteId byte);
 
+/// Brings two words to HL, whose value may then be destroyed, and BC. @return  false: it failed
+bool load_for_dsub(Coder& coder, const Bytes& left, const Bytes& right);
+
 /// Does the byte occur among those?
 [[nodiscard]] bool occurs(const Bytes& bytes, ByteId byte, std::size_t from = 0);
 

@@ -315,6 +315,17 @@ void place_result(Coder& coder, ByteId result, Register place, const Bytes& left
     coder.lock(place);
 }
 
+bool load_for_dsub(Coder& coder, const Bytes& left, const Bytes& right) {
+    coder.load(Pair::bc, right[0], right[1]);
+    coder.lock(Pair::bc);
+    coder.load(Pair::hl, left[0], left[1]);
+    coder.copy_out(Pair::hl, true, true);
+    if (!coder.holds(Pair::hl, left[0], left[1]) || !coder.holds(Pair::bc, right[0], right[1])) {
+        coder.failed = true;
+    }
+    return !coder.failed;
+}
+
 void add_sums(Ways& ways, const Coder& start, const Operation& operation,
               const RecipeContext& context) {
     const bool sum = operation.opcode == Opcode::add;
@@ -331,6 +342,14 @@ void add_sums(Ways& ways, const Coder& start, const Operation& operation,
         add_byte_to_word(ways, start, operation, context);
     }
     if (sum && size == 4) add_long_dads(ways, start, operation, context);
+    if (!sum && size == 2 && start.facts().undocumented) {
+        add_way(ways, start, [&](Coder& coder) {
+            if (!load_for_dsub(coder, operation.left, operation.right)) return;
+            coder.emit(op::kDsub);
+            coder.state.tested = kNone;
+            coder.set(Pair::hl, operation.results[0], operation.results[1]);
+        });
+    }
     const unsigned first = sum ? alu::kAdd : alu::kSub;
     const unsigned next = sum ? alu::kAdc : alu::kSbb;
     add_chains(ways, start, {first, next, operation.left, operation.right, operation.results});

@@ -146,6 +146,18 @@ void add_below(std::vector<Decision>& ways, const Coder& start, const Bytes& lef
     });
 }
 
+/// DSUB: the borrow of two words.
+void add_below_by_dsub(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
+                       const Bytes& right) {
+    if (!start.facts().undocumented || left.size() != 2) return;
+    add_decision(ways, start, Condition::c, [&](Coder& coder) {
+        if (!load_for_dsub(coder, left, right)) return;
+        coder.emit(op::kDsub);
+        coder.state.tested = kNone;
+        coder.set(Pair::hl, kNone, kNone);
+    });
+}
+
 // Less if borrow, sign of left and sign of right differ in an odd number: RAR brings the borrow
 // to bit 7, XRA sets S.
 void add_less(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
@@ -200,6 +212,7 @@ std::vector<Decision> decide(const Coder& start, Predicate predicate, const Byte
             break;
         case Predicate::below:
             add_below(ways, start, left, right);
+            add_below_by_dsub(ways, start, left, right);
             break;
         default:
             if (all(start, right, 0)) {

@@ -165,6 +165,18 @@ void load_through(Coder& coder, const Operation& operation, const Places& places
     }
 }
 
+/// LHLX: a word from where DE points.
+void load_by_lhlx(Coder& coder, const Operation& operation) {
+    const Bytes& address = operation.left;
+    const Bytes& results = operation.results;
+    coder.load(Pair::de, address[0], address[1]);
+    coder.lock(Pair::de);
+    coder.vacate(Pair::hl, true);
+    if (coder.failed) return;
+    coder.emit(op::kLhlx);
+    coder.set(Pair::hl, results[0], results[1]);
+}
+
 // -- Stores --------------------------------------------------------------------------------------
 
 void store_fixed(Coder& coder, const Operation& operation, bool words) {
@@ -197,6 +209,21 @@ void store_byte(Coder& coder, ByteId byte, Pair pair) {
     if (!coder.facts().undefined(byte)) coder.load(Register::a, byte);
     if (coder.failed) return;
     coder.emit(pair == Pair::hl ? mov_to_memory(Register::a) : by_pair(op::kStax, pair));
+}
+
+/// SHLX: a word to where DE points.
+void store_by_shlx(Coder& coder, const Operation& operation, bool address_first) {
+    const Bytes& address = operation.left;
+    const Bytes& value = operation.right;
+    if (address_first) {
+        coder.load(Pair::de, address[0], address[1]);
+        coder.lock(Pair::de);
+    }
+    coder.load(Pair::hl, value[0], value[1]);
+    coder.lock(Pair::hl);
+    if (!address_first) coder.load(Pair::de, address[0], address[1]);
+    if (coder.failed) return;
+    coder.emit(op::kShlx);
 }
 
 void store_through(Coder& coder, const Operation& operation, Pair pair, Register preload) {
@@ -233,6 +260,9 @@ void store_through(Coder& coder, const Operation& operation, Pair pair, Register
 void add_loads(Ways& ways, const Coder& start, const Operation& operation) {
     const std::size_t size = operation.results.size();
     std::vector<Places> choices = places_for(size);
+    if (start.facts().undocumented && size == 2) {
+        add_way(ways, start, [&](Coder& coder) { load_by_lhlx(coder, operation); });
+    }
     if (size == 1) {
         for (const Register which : kRegisters) choices.push_back({which});
     }
@@ -252,6 +282,12 @@ void add_stores(Ways& ways, const Coder& start, const Operation& operation) {
         for (const bool words : {false, true}) {
             if (words && operation.right.size() == 1) continue;
             add_way(ways, start, [&](Coder& coder) { store_fixed(coder, operation, words); });
+        }
+    }
+    if (start.facts().undocumented && operation.right.size() == 2) {
+        for (const bool address_first : {false, true}) {
+            add_way(ways, start,
+                    [&](Coder& coder) { store_by_shlx(coder, operation, address_first); });
         }
     }
     for (const Pair pair : kPairs) {

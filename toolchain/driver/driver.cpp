@@ -264,6 +264,7 @@ codegen::Compiled generate(const Request& request, codegen::Module module,
     options.search = request.level != ir::Optimisation::none;
     options.search_budget = request.search_budget;
     options.byte_cost = request.byte_cost;
+    options.undocumented = request.undocumented;
     for (const std::string& root : roots) {
         const auto symbol = module.symbol_ids.find(root);
         if (symbol != module.symbol_ids.end() && module.find(symbol->second) != nullptr) {
