@@ -12,11 +12,6 @@ void repeat(Coder& coder, uint8_t opcode, unsigned count) {
     for (unsigned i = 0; i < count; ++i) coder.emit(opcode);
 }
 
-void take_a(Coder& coder, ByteId byte) {
-    coder.load(Register::a, byte);
-    coder.vacate(Register::a, true);
-}
-
 void add_byte_shifts(Ways& ways, const Coder& start, const Operation& operation) {
     const unsigned count = operation.immediate;
     const ByteId result = operation.results[0];
@@ -38,6 +33,7 @@ void add_byte_shifts(Ways& ways, const Coder& start, const Operation& operation)
             }
         }
         finish(coder);
+        if (left && count == 1) coder.state.sign_in_carry = operation.left[0];
     });
     if (is_signed) return;
     add_way(ways, start, [&](Coder& coder) {
@@ -55,13 +51,6 @@ void add_byte_shifts(Ways& ways, const Coder& start, const Operation& operation)
 
 // -- To the left ---------------------------------------------------------------------------------
 
-/// Loads a word into HL for being destroyed.
-void take_hl(Coder& coder, ByteId low, ByteId high) {
-    coder.load(Pair::hl, low, high);
-    coder.copy_out(Pair::hl, true, true);
-    if (!coder.holds(Pair::hl, low, high)) coder.failed = true;
-}
-
 void add_left_word(Ways& ways, const Coder& start, const Operation& operation) {
     const Bytes& left = operation.left;
     add_way(ways, start, [&](Coder& coder) {
@@ -69,6 +58,7 @@ void add_left_word(Ways& ways, const Coder& start, const Operation& operation) {
         if (coder.failed) return;
         repeat(coder, by_pair(op::kDad, Pair::hl), operation.immediate);
         coder.set(Pair::hl, operation.results[0], operation.results[1]);
+        if (operation.immediate == 1) coder.state.sign_in_carry = left[1];
     });
 }
 
@@ -116,53 +106,7 @@ void add_left_long(Ways& ways, const Coder& start, const Operation& operation) {
     }
 }
 
-// The same with RDEL: 20 T a bit.
-void add_left_long_by_rdel(Ways& ways, const Coder& start, const Operation& operation) {
-    const Bytes& left = operation.left;
-    add_way(ways, start, [&](Coder& coder) {
-        coder.load(Pair::de, left[2], left[3]);
-        coder.copy_out(Pair::de, true, true);
-        coder.lock(Pair::de);
-        take_hl(coder, left[0], left[1]);
-        if (coder.failed || !coder.holds(Pair::de, left[2], left[3])) {
-            coder.failed = true;
-            return;
-        }
-        for (unsigned i = 0; i < operation.immediate; ++i) {
-            coder.emit(by_pair(op::kDad, Pair::hl));
-            coder.emit(op::kRdel);
-        }
-        coder.set(Pair::hl, operation.results[0], operation.results[1]);
-        coder.set(Pair::de, operation.results[2], operation.results[3]);
-    });
-}
-
 // -- To the right --------------------------------------------------------------------------------
-
-// ARHL keeps the sign: 7 T a bit; without a sign the upper bits are cut off behind.
-void add_right_by_arhl(Ways& ways, const Coder& start, const Operation& operation) {
-    add_way(ways, start, [&](Coder& coder) {
-        take_hl(coder, operation.left[0], operation.left[1]);
-        if (coder.failed) return;
-        const bool masks = operation.opcode != Opcode::shift_right_signed &&
-                           coder.needed(operation.results[1], true);
-        if (masks) {
-            coder.lock(Pair::hl);
-            coder.vacate(Register::a, true);
-        }
-        if (coder.failed) return;
-        repeat(coder, op::kArhl, operation.immediate);
-        if (masks) {
-            coder.emit(mov(Register::a, Register::h));
-            coder.emit_number(op::kAluImmediate | alu::kAna << 3, 0xFF >> operation.immediate);
-            coder.emit(mov(Register::h, Register::a));
-            coder.state.tested = kNone;
-        }
-        const bool top = masks || operation.opcode == Opcode::shift_right_signed;
-        coder.set(Pair::hl, operation.results[0], top ? operation.results[1] : kNone);
-        if (masks) coder.set(Register::a, operation.results[1]);
-    });
-}
 
 // Bit by bit from the top byte down, in registers or in the result's slots.
 void step_right(Coder& coder, const Operation& operation, const Places& places) {
@@ -441,6 +385,17 @@ void add_in_slots(Ways& ways, const Coder& start, const Operation& operation) {
 
 }  // namespace
 
+void take_a(Coder& coder, ByteId byte) {
+    coder.load(Register::a, byte);
+    coder.vacate(Register::a, true);
+}
+
+void take_hl(Coder& coder, ByteId low, ByteId high) {
+    coder.load(Pair::hl, low, high);
+    coder.copy_out(Pair::hl, true, true);
+    if (!coder.holds(Pair::hl, low, high)) coder.failed = true;
+}
+
 void add_shifts(Ways& ways, const Coder& start, const Operation& operation) {
     const std::size_t size = operation.results.size();
     if (operation.opcode == Opcode::sign_fill) {
@@ -454,18 +409,15 @@ void add_shifts(Ways& ways, const Coder& start, const Operation& operation) {
         return;
     }
     if (size == 1) return add_byte_shifts(ways, start, operation);
+    if (start.facts().undocumented) add_undocumented_shifts(ways, start, operation);
     if (operation.opcode == Opcode::shift_left) {
         if (size == 2) add_left_word(ways, start, operation);
         if (size == 3) add_left_three(ways, start, operation);
         if (size == 4) add_left_long(ways, start, operation);
-        if (size == 4 && start.facts().undocumented) {
-            add_left_long_by_rdel(ways, start, operation);
-        }
         add_in_slots(ways, start, operation);
         return;
     }
     add_steps_right(ways, start, operation);
-    if (size == 2 && start.facts().undocumented) add_right_by_arhl(ways, start, operation);
     add_right_by_left(ways, start, operation);
     add_three_right_by_left(ways, start, operation);
     add_four_right_by_left(ways, start, operation);
