@@ -212,7 +212,7 @@ private:
     void prepare() {
         clock_.begin("prepare");
         if (request_.level != ir::Optimisation::none) ir::fix_places(*whole_);
-        ir::prepare(*whole_);
+        ir::prepare(*whole_, request_.undocumented);
         std::string problem;
         llvm::raw_string_ostream stream(problem);
         if (llvm::verifyModule(*whole_, &stream)) throw std::logic_error(problem);
