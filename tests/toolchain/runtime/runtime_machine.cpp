@@ -23,6 +23,7 @@ using namespace toolchain::assembly;
 
 constexpr std::array kFiles = {"multiply", "divide", "shift", "copy", "wide", "call"};
 constexpr std::array kSmallFiles = {"small/multiply", "small/divide"};
+constexpr std::array kUndocumentedFiles = {"undocumented/multiply"};
 constexpr uint16_t kHalt = 0x0000;  // where routines return to
 constexpr uint16_t kCode = 0x0100;
 constexpr uint16_t kStack = 0xFF00;
@@ -96,21 +97,24 @@ RuntimeMachine::RuntimeMachine() {
         read_blocks(text);
         modules_.push_back(parse(text, {.file = name + ".s85"}));
     }
-    if (kSmall) take_small();
+    if (kSmall || kUndocumented) take_variant();
     place();
 }
 
-/// The small routines in the place of the fast ones.
-void RuntimeMachine::take_small() {
+/// The small or undocumented routines in the place of the usual ones.
+void RuntimeMachine::take_variant() {
     const std::vector<Routine> fast = std::exchange(routines_, {});
-    std::vector<Module> small;
-    for (const std::string name : kSmallFiles) {
+    const std::vector<std::string> names =
+        kSmall ? std::vector<std::string>(kSmallFiles.begin(), kSmallFiles.end())
+               : std::vector<std::string>(kUndocumentedFiles.begin(), kUndocumentedFiles.end());
+    std::vector<Module> variant;
+    for (const std::string& name : names) {
         const std::string text = file_text(name + ".s85");
         read_blocks(text);
-        small.push_back(parse(text, {.file = name + ".s85"}));
+        variant.push_back(parse(text, {.file = name + ".s85"}));
     }
-    replace_sections(modules_, std::move(small));
-    for (Routine& routine : routines_) routine.is_small = true;
+    replace_sections(modules_, std::move(variant));
+    for (Routine& routine : routines_) routine.is_variant = true;
     for (const Routine& routine : fast) {
         const bool replaced =
             std::any_of(routines_.begin(), routines_.end(),
