@@ -44,7 +44,8 @@ struct Figures {
 struct LevelName {
     toolchain::ir::Optimisation level;
     const char* name;
-    bool undocumented = false;  ///< --cpu=8085u
+    bool undocumented = false;    ///< --cpu=8085u
+    bool table_multiply = false;  ///< --table-multiply
 };
 inline constexpr LevelName kLevels[] = {{toolchain::ir::Optimisation::none, "O0"},
                                         {toolchain::ir::Optimisation::less, "O1"},

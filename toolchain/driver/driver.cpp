@@ -241,6 +241,7 @@ std::vector<assembly::Module> parsed(std::span<const Resource> files) {
 std::vector<assembly::Module> runtime_modules(const Request& request) {
     std::vector<assembly::Module> modules = parsed(runtime_files());
     if (request.undocumented) assembly::replace_sections(modules, parsed(undocumented_files()));
+    if (request.table_multiply) assembly::replace_sections(modules, parsed(table_files()));
     if (request.small_runtime) assembly::replace_sections(modules, parsed(small_files()));
     return modules;
 }

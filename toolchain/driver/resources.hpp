@@ -21,6 +21,9 @@ struct Resource {
 /// Those that use undocumented instructions, undocumented/*.s85.
 [[nodiscard]] std::span<const Resource> undocumented_files();
 
+/// Those that multiply by table, table/*.s85.
+[[nodiscard]] std::span<const Resource> table_files();
+
 /// Headers that programs may include: i85.h, string.h.
 [[nodiscard]] std::span<const Resource> include_files();
 

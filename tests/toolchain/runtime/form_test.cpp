@@ -120,7 +120,8 @@ TEST(Form, PagesNameEveryRoutineWithItsFigures) {
     for (const Routine& routine : runtime().routines()) {
         EXPECT_NE(spec.find("`" + routine.name + "`"), spec.npos) << routine.name;
         if (!routine.is_stated) continue;
-        const char* variant = !routine.is_variant ? "" : kSmall ? ", small" : ", 8085u";
+        const char* name = kSmall ? ", small" : kTable ? ", table" : ", 8085u";
+        const char* variant = routine.is_variant ? name : "";
         const std::string row = fmt::format("| `{}`{} |", routine.name, variant);
         const std::size_t begin = design.find(row);
         ASSERT_NE(begin, design.npos) << routine.name;

@@ -22,8 +22,6 @@ namespace {
 using namespace toolchain::assembly;
 
 constexpr std::array kFiles = {"multiply", "divide", "shift", "copy", "wide", "call"};
-constexpr std::array kSmallFiles = {"small/multiply", "small/divide"};
-constexpr std::array kUndocumentedFiles = {"undocumented/multiply"};
 constexpr uint16_t kHalt = 0x0000;  // where routines return to
 constexpr uint16_t kCode = 0x0100;
 constexpr uint16_t kStack = 0xFF00;
@@ -97,16 +95,17 @@ RuntimeMachine::RuntimeMachine() {
         read_blocks(text);
         modules_.push_back(parse(text, {.file = name + ".s85"}));
     }
-    if (kSmall || kUndocumented) take_variant();
+    if (kSmall || kUndocumented || kTable) take_variant();
     place();
 }
 
-/// The small or undocumented routines in the place of the usual ones.
+/// The routines of a variant in the place of the usual ones.
 void RuntimeMachine::take_variant() {
     const std::vector<Routine> fast = std::exchange(routines_, {});
-    const std::vector<std::string> names =
-        kSmall ? std::vector<std::string>(kSmallFiles.begin(), kSmallFiles.end())
-               : std::vector<std::string>(kUndocumentedFiles.begin(), kUndocumentedFiles.end());
+    std::vector<std::string> names;
+    if (kSmall) names = {"small/multiply", "small/divide"};
+    if (kUndocumented) names = {"undocumented/multiply"};
+    if (kTable) names = {"table/multiply"};
     std::vector<Module> variant;
     for (const std::string& name : names) {
         const std::string text = file_text(name + ".s85");
@@ -132,6 +131,7 @@ void RuntimeMachine::place() {
     for (Module& module : placed) {
         for (Section& section : module.sections) {
             section.kind = SectionKind::code;
+            end = (end + section.alignment - 1) / section.alignment * section.alignment;
             section.address = static_cast<uint16_t>(end);
             end += static_cast<uint32_t>(section_size(section));
         }

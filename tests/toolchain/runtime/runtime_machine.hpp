@@ -39,6 +39,12 @@ inline constexpr bool kUndocumented = true;  ///< the routines of toolchain/runt
 inline constexpr bool kUndocumented = false;
 #endif
 
+#ifdef ROVER_TABLE_RUNTIME
+inline constexpr bool kTable = true;  ///< the routines of toolchain/runtime/table
+#else
+inline constexpr bool kTable = false;
+#endif
+
 /// DE:HL = value.
 [[nodiscard]] Registers with_dehl(uint32_t value);
 
@@ -53,7 +59,7 @@ struct Routine {
     std::vector<std::string> calls;
     unsigned best_t = 0;  ///< T-states, RET included and CALL not
     unsigned worst_t = 0;
-    bool is_variant = false;  ///< of toolchain/runtime/small or undocumented
+    bool is_variant = false;  ///< of toolchain/runtime/small, undocumented or table
     bool is_stated = true;    ///< false: it calls such a routine, and is not one itself
 };
 
