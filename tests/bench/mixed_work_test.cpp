@@ -1,7 +1,7 @@
 // A plain C program of CoreMark's kind and size, unchanged: linked list with function pointers,
-// matrix, state machine, CRC. Its sums are those that CoreMark publishes for 2000 bytes; T-states of
-// one round, preparation included, stay below 28 million (issue 6: the best existing compiler for
-// the 8085 needs 44.4 million for CoreMark, the best one for the Z80 29.6).
+// matrix, state machine, CRC. Its sums are those that CoreMark publishes for 2000 bytes; T-states
+// of one round, preparation included, stay below 28 million (issue 6: the best existing compiler
+// for the 8085 needs 44.4 million for CoreMark, the best one for the Z80 29.6).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -67,9 +67,9 @@ std::vector<uint8_t> bytes_of(const Cells& cells) {
     }
     bytes.push_back(cells.ring.origin);
     bytes.insert(bytes.end(), std::begin(cells.match.steps), std::end(cells.match.steps));
-    for (const uint8_t byte : {cells.match.last, cells.match.best, cells.match.least_q3,
-                               cells.match.fit_q3, cells.first, static_cast<uint8_t>(cells.off),
-                               cells.whole, cells.fraction}) {
+    for (const uint8_t byte :
+         {cells.match.last, cells.match.best, cells.match.least_q3, cells.match.fit_q3, cells.first,
+          static_cast<uint8_t>(cells.off), cells.whole, cells.fraction}) {
         bytes.push_back(byte);
     }
     return bytes;

@@ -361,7 +361,8 @@ private:
         const bool clears = item.opcode == kXraA && dead(kFlags);
         if (clears && known_->constant_in(Register::a) == 0) return drop();
         const bool tests = item.opcode == kOraA || item.opcode == kAnaA;
-        if (tests && dead(kCarry) && k_is_dead() && known_->state.tested == known_->in(Register::a)) drop();
+        if (tests && dead(kCarry) && k_is_dead() && known_->state.tested == known_->in(Register::a))
+            drop();
     }
 
     void rewrite_xchg() {

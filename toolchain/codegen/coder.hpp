@@ -32,11 +32,11 @@ inline constexpr std::array<Pair, 3> kPairs = {Pair::hl, Pair::de, Pair::bc};
 /// What registers and slots hold at a point of a block.
 struct State {
     std::array<ByteId, 8> content{kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-    std::array<Base, 3> sum{};  ///< of pairs whose bytes have no id
-    Bits in_slot{};             ///< by local number
-    ByteId tested = kNone;      ///< Z and S tell about this byte
-    ByteId sign_in_carry = kNone;                        ///< CY is its top bit
-    std::array<ByteId, 2> zero_in_k{kNone, kNone};       ///< K tells whether this word is 0
+    std::array<Base, 3> sum{};                      ///< of pairs whose bytes have no id
+    Bits in_slot{};                                 ///< by local number
+    ByteId tested = kNone;                          ///< Z and S tell about this byte
+    ByteId sign_in_carry = kNone;                   ///< CY is its top bit
+    std::array<ByteId, 2> zero_in_k{kNone, kNone};  ///< K tells whether this word is 0
 
     bool operator==(const State&) const = default;
 };

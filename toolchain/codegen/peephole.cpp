@@ -117,8 +117,9 @@ bool drop_jumps(Items& items) {
             return true;
         }
         const bool over_return = next < items.size() && items[i].opcode != op::kJmp &&
-                                 !op::asks_k(items[i].opcode) && is_instruction(items[next]) && items[next].opcode == op::kRet &&
-                                 target > next && next_instruction(items, next + 1) >= target;
+                                 !op::asks_k(items[i].opcode) && is_instruction(items[next]) &&
+                                 items[next].opcode == op::kRet && target > next &&
+                                 next_instruction(items, next + 1) >= target;
         if (over_return) {  // Jcc and Rcc differ in their low bits
             items[i].opcode = static_cast<uint8_t>((items[i].opcode ^ 0x08) & 0xF8);
             items[i].operand = {};

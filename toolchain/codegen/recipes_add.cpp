@@ -369,8 +369,7 @@ void add_word_chains(Ways& ways, const Coder& start, const Operation& operation)
     if (operation.results.size() > 4) return;
     if (operation.opcode == Opcode::subtract) {
         if (!start.facts().undocumented) return;
-        const Chain chain{alu::kSub, alu::kSbb, operation.left, operation.right,
-                          operation.results};
+        const Chain chain{alu::kSub, alu::kSbb, operation.left, operation.right, operation.results};
         return add_word_chain(ways, start, chain, Pair::hl);
     }
     for (const bool swapped : {false, true}) {

@@ -1,6 +1,7 @@
 // count_down.cpp - counters that only count are counted down to 0, in as few bits as they need; see
 // passes.hpp.
-// Why          `DCR; JNZ` compares for nothing: 14 T-states in one register; so does `INX; JNK` in a
+// Why          `DCR; JNZ` compares for nothing: 14 T-states in one register; so does `INX; JNK` in
+// a
 //              pair, with undocumented instructions.
 // Depends on   libLLVM 19.
 #include <llvm/Analysis/ScalarEvolutionExpressions.h>
@@ -197,7 +198,8 @@ void count_last(llvm::Function& function) {
         auto* branch = llvm::dyn_cast<llvm::BranchInst>(block.getTerminator());
         if (branch == nullptr || !branch->isConditional()) continue;
         auto* compare = llvm::dyn_cast<ICmpInst>(branch->getCondition());
-        if (compare == nullptr || !compare->isEquality() || compare->getParent() != &block) continue;
+        if (compare == nullptr || !compare->isEquality() || compare->getParent() != &block)
+            continue;
         auto* step = llvm::dyn_cast<llvm::BinaryOperator>(compare->getOperand(0));
         const auto* zero = llvm::dyn_cast<llvm::ConstantInt>(compare->getOperand(1));
         if (step == nullptr || zero == nullptr || !zero->isZero() || step->getParent() != &block ||

@@ -39,8 +39,8 @@ uint64_t bytes_kept_waiting(const Instruction& instruction) {
 /// In front of which instruction the value is needed, or nullptr.
 Instruction* place_of_use(Instruction& instruction) {
     llvm::BasicBlock* home = instruction.getParent();
-    const bool goes_on = std::all_of(
-        instruction.use_begin(), instruction.use_end(), [&](const llvm::Use& use) {
+    const bool goes_on =
+        std::all_of(instruction.use_begin(), instruction.use_end(), [&](const llvm::Use& use) {
             const auto* phi = llvm::dyn_cast<llvm::PHINode>(use.getUser());
             return phi != nullptr && phi->getIncomingBlock(use) == home;
         });

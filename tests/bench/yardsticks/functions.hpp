@@ -32,7 +32,8 @@ constexpr void ring_update(Cells& cells) {
     const auto known = static_cast<uint8_t>(kItems - 1 - cells.whole);
     for (uint8_t bin = 0; bin < known; ++bin) {
         const auto next = static_cast<uint8_t>(bin + 1);
-        cells.ring.at(bin) = rover::lerp_q8(cells.ring.at(bin), cells.ring.at(next), cells.fraction);
+        cells.ring.at(bin) =
+            rover::lerp_q8(cells.ring.at(bin), cells.ring.at(next), cells.fraction);
     }
 }
 

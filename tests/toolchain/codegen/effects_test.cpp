@@ -39,22 +39,15 @@ Outcome run(const CodeItem& item, const Values& values, uint8_t memory) {
     cpu.sp = 0xF000;
     cpu.b = values[0], cpu.c = values[1], cpu.d = values[2], cpu.e = values[3];
     cpu.h = values[4], cpu.l = values[5], cpu.a = values[7];
-    cpu.f = static_cast<uint8_t>((values[6] & kSignFlags) | (values[8] & 1) |
-                                 (values[9] & kKFlag));
+    cpu.f = static_cast<uint8_t>((values[6] & kSignFlags) | (values[8] & 1) | (values[9] & kKFlag));
     host_sim::StepRecord record;
     (void)machine.step(record);
     Outcome result;
-    result.values = {cpu.b,
-                     cpu.c,
-                     cpu.d,
-                     cpu.e,
-                     cpu.h,
-                     cpu.l,
-                     static_cast<uint8_t>(cpu.f & kSignFlags),
-                     cpu.a,
-                     static_cast<uint8_t>(cpu.f & 1),
-                     // Nobody may rely on what sources disagree on.
-                     static_cast<uint8_t>(cpu.f & kKFlag & ~isa::instruction(item.opcode).flags_unsettled)};
+    result.values = {
+        cpu.b, cpu.c, cpu.d, cpu.e, cpu.h, cpu.l, static_cast<uint8_t>(cpu.f & kSignFlags), cpu.a,
+        static_cast<uint8_t>(cpu.f & 1),
+        // Nobody may rely on what sources disagree on.
+        static_cast<uint8_t>(cpu.f & kKFlag & ~isa::instruction(item.opcode).flags_unsettled)};
     result.memory.assign(machine.memory.bytes.begin() + 0x8000, machine.memory.bytes.end());
     return result;
 }

@@ -91,7 +91,7 @@ private:
     void place();
 
     host_sim::FlatMachine machine_{kUndocumented ? host_sim::InstructionSet::all
-                                               : host_sim::InstructionSet::documented};
+                                                 : host_sim::InstructionSet::documented};
     std::vector<Routine> routines_;
     std::vector<toolchain::assembly::Module> modules_;
     std::map<std::string, uint16_t> symbols_;
