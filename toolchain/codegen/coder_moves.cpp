@@ -342,9 +342,12 @@ void Coder::load_bytes(Pair pair, ByteId low, ByteId high) {
     const bool low_done = holds(first, low);
     const bool high_done = holds(second, high);
     if (low_done && high_done) return;
-    // Another word that is in the way moves as a whole.
+    // Another word that is in the way moves as a whole: where words are moved by LHLX and SHLX it
+    // is needed as one again.
     const auto is_wanted = [&](ByteId byte) { return byte == low || byte == high; };
-    if (!is_wanted(content(first)) && !is_wanted(content(second)) && !locked(pair)) vacate(pair);
+    if (facts_->undocumented && !is_wanted(content(first)) && !is_wanted(content(second)) &&
+        !locked(pair))
+        vacate(pair);
     if (failed) return;
     const bool low_in_second =
         content(second) == low &&
