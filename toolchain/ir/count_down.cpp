@@ -185,12 +185,20 @@ const llvm::SCEV* cheap_exit_count(llvm::ScalarEvolution& evolution,
     return count;
 }
 
-void count_down(llvm::Function& function, bool words_go_up) {
+static void count_to_zero(llvm::Function& function, bool words_go_up) {
     Analyses analyses(function);
     analyses.run(llvm::LoopSimplifyPass());
     for (llvm::Loop* loop : analyses.loops().getLoopsInPreorder()) {
         Counter(analyses, *loop, function.getParent()->getDataLayout(), words_go_up).run();
     }
+}
+
+void count_down(llvm::Function& function) {
+    count_to_zero(function, false);
+}
+
+void count_words_up(llvm::Function& function) {
+    count_to_zero(function, true);
 }
 
 void count_last(llvm::Function& function) {

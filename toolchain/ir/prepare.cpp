@@ -44,8 +44,7 @@ void prepare(llvm::Module& module, bool undocumented) {
         functions.invalidate(function, llvm::PreservedAnalyses::none());
         run("copy_by_value_arguments", copy_by_value_arguments);
         run("step_pointers", step_pointers);
-        count_down(function, undocumented);
-        check(function, "count_down");
+        run("count_down", undocumented ? count_words_up : count_down);
         run("find_pages", find_pages);
         run("narrow_values", narrow_values);
         run("expand_intrinsics", expand_intrinsics);
