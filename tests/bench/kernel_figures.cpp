@@ -48,6 +48,8 @@ uint64_t number(const std::string& text, int base = 10) {
 Program compiled(const std::string& name, const LevelName& level, const std::string& folder) {
     toolchain::driver::Request request;
     request.level = level.level;
+    request.undocumented = level.undocumented;
+    request.table_multiply = level.table_multiply;
     request.front_end = {"-I" + folder, "-std=c89"};
     request.keep = {"kernel", "ksum"};
     request.sources = {{.path = "main.c",
@@ -141,7 +143,9 @@ Figure measure(const Kernel& kernel, const LevelName& level, const std::string& 
     const Program program = compiled(kernel.name, level, folder);
     Figure figure{.kernel = kernel.name, .level = level.name};
     add_bytes(program, figure);
-    target_test::Machine machine(program);
+    target_test::Machine machine(program, level.undocumented
+                                              ? host_sim::InstructionSet::all
+                                              : host_sim::InstructionSet::documented);
     host_sim::CpuState& cpu = machine.machine().cpu;
     host_sim::StepRecord step;
     while (cpu.pc != machine.address("main")) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,11 +44,16 @@ struct Figures {
 struct LevelName {
     toolchain::ir::Optimisation level;
     const char* name;
+    bool undocumented = false;    ///< --cpu=8085u
+    bool table_multiply = false;  ///< --table-multiply
 };
 inline constexpr LevelName kLevels[] = {{toolchain::ir::Optimisation::none, "O0"},
                                         {toolchain::ir::Optimisation::less, "O1"},
                                         {toolchain::ir::Optimisation::more, "O2"},
-                                        {toolchain::ir::Optimisation::size, "Os"}};
+                                        {toolchain::ir::Optimisation::size, "Os"},
+                                        {toolchain::ir::Optimisation::more, "O2u", true},
+                                        {toolchain::ir::Optimisation::size, "Osu", true}};
+inline constexpr std::size_t kDocumentedLevels = 4;  ///< the first of them
 
 /// @errors std::runtime_error: not readable
 [[nodiscard]] std::vector<Kernel> read_kernels(const std::string& csv_file);
@@ -65,5 +71,14 @@ void write_figures(const std::string& csv_file, const Figures& figures);
 
 /// Tables for people, in Markdown.
 [[nodiscard]] std::string table(const std::vector<Kernel>& kernels, const Figures& figures);
+
+/// The row of a kernel and a level, if there is one.
+[[nodiscard]] std::optional<Figure> find(const Figures& figures, const std::string& kernel,
+                                         const std::string& level);
+
+/// Geometric mean of the T-states of one level, each divided by those of another, over the kernels
+/// that count: those with a figure of other compilers.
+[[nodiscard]] double mean_ratio(const std::vector<Kernel>& kernels, const Figures& figures,
+                                const std::string& level, const std::string& to);
 
 }  // namespace bench

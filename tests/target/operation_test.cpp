@@ -17,13 +17,20 @@
 namespace target_test {
 namespace {
 
-toolchain::assembly::Program compiled(const std::vector<Case>& cases, bool in_ir,
-                                      Optimisation level) {
-    toolchain::driver::Request made = request(level);
+/// How all cases of a table are compiled.
+struct Setting {
+    Level level;
+    bool in_ir = false;
+    bool undocumented = false;  ///< instructions too
+};
+
+toolchain::assembly::Program compiled(const std::vector<Case>& cases, const Setting& setting) {
+    toolchain::driver::Request made = request(setting.level.level);
+    made.undocumented = setting.undocumented;
     made.front_end = {"-std=c2x", "-fwrapv"};
     made.keep = {"in_a", "in_b", "out", "request"};
     made.sources = {{.path = "main.c", .text = c_main(cases.size())}};
-    if (in_ir) {
+    if (setting.in_ir) {
         made.sources.push_back({.path = "operations.ll", .text = ir_functions(cases)});
     } else {
         made.sources.push_back({.path = "operations.c", .text = c_functions(cases)});
@@ -53,8 +60,10 @@ std::size_t check(Machine& machine, const Case& one, uint64_t a, uint64_t b) {
 }
 
 /// All cases of one image.
-std::size_t check_image(const std::vector<Case>& cases, bool in_ir, Optimisation level) {
-    Machine machine(compiled(cases, in_ir, level));
+std::size_t check_image(const std::vector<Case>& cases, const Setting& setting) {
+    Machine machine(compiled(cases, setting), setting.undocumented
+                                                  ? host_sim::InstructionSet::all
+                                                  : host_sim::InstructionSet::documented);
     machine.run();
     std::size_t checks = 0;
     for (std::size_t i = 0; i < cases.size() && !testing::Test::HasFailure(); ++i) {
@@ -73,22 +82,22 @@ std::size_t check_image(const std::vector<Case>& cases, bool in_ir, Optimisation
 }
 
 /// In as many images as they take.
-std::size_t check_images(const std::vector<Case>& cases, bool in_ir, Optimisation level) {
+std::size_t check_images(const std::vector<Case>& cases, const Setting& setting) {
     try {
-        return check_image(cases, in_ir, level);
+        return check_image(cases, setting);
     } catch (const toolchain::driver::Failed& failed) {
         const bool too_large = std::string(failed.what()).starts_with("ROM: ");
         if (!too_large || cases.size() == 1) throw;
     }
     const auto middle = cases.begin() + static_cast<std::ptrdiff_t>(cases.size() / 2);
-    return check_images({cases.begin(), middle}, in_ir, level) +
-           check_images({middle, cases.end()}, in_ir, level);
+    return check_images({cases.begin(), middle}, setting) +
+           check_images({middle, cases.end()}, setting);
 }
 
 /// About what fits into an image: results times their width.
 constexpr std::size_t kImageBits = 7000;
 
-void check_all(const std::vector<Case>& cases, bool in_ir, Optimisation level) {
+void check_all(const std::vector<Case>& cases, const Setting& setting) {
     std::vector<Case> group;
     std::size_t bits = 0;
     std::size_t checks = 0;
@@ -97,7 +106,7 @@ void check_all(const std::vector<Case>& cases, bool in_ir, Optimisation level) {
         bits += cases[i].outputs.size() * cases[i].left.bits;
         group.push_back(cases[i]);
         if (bits < kImageBits && i + 1 < cases.size()) continue;
-        checks += check_images(group, in_ir, level);
+        checks += check_images(group, setting);
         group.clear();
         bits = 0;
     }
@@ -122,13 +131,12 @@ std::vector<Case> quick(std::vector<Case> cases) {
 }
 
 struct Table {
-    Level level;
+    Setting setting;
     std::vector<unsigned> widths;
-    bool in_ir = false;
 };
 
 void PrintTo(const Table& table, std::ostream* stream) {
-    *stream << table.level.name;
+    *stream << table.setting.level.name;
 }
 
 class Operations : public testing::TestWithParam<Table> {};
@@ -136,10 +144,10 @@ class Operations : public testing::TestWithParam<Table> {};
 TEST_P(Operations, GiveWhatTheLanguageSays) {
     const Table& table = GetParam();
     for (const unsigned bits : table.widths) {
-        auto cases = table.in_ir ? ir_cases({bits}) : c_cases({bits});
-        const bool searches = table.level.level != Optimisation::none;
+        auto cases = table.setting.in_ir ? ir_cases({bits}) : c_cases({bits});
+        const bool searches = table.setting.level.level != Optimisation::none;
         if (searches && !is_full()) cases = quick(std::move(cases));
-        check_all(cases, table.in_ir, table.level.level);
+        check_all(cases, table.setting);
     }
 }
 
@@ -155,30 +163,38 @@ std::vector<Table> tables() {
             // For single operations -O1, -O2 and -Os give nearly the same.
             const bool typical = (&level == &size && !kSlowBuild) || bits == 8;
             if (full || &level == &none || typical) {
-                made.push_back({level, {bits}});
+                made.push_back({{level}, {bits}});
             }
         }
     }
     // Widths that only LLVM makes.
     for (const unsigned bits :
          {1U, 2U, 3U, 5U, 7U, 8U, 9U, 12U, 15U, 17U, 20U, 24U, 31U, 33U, 40U, 48U, 63U}) {
-        made.push_back({none, {bits}, true});
+        made.push_back({{none, true}, {bits}});
         const bool typical =
             !kSlowBuild && (bits == 1 || bits == 3 || bits == 8 || bits == 12 || bits == 40);
-        if (full || typical) made.push_back({size, {bits}, true});
+        if (full || typical) made.push_back({{size, true}, {bits}});
+    }
+    for (std::size_t i = 0, count = made.size(); i < count; ++i) {
+        Table with = made[i];
+        with.setting.undocumented = true;
+        made.push_back(with);
     }
     return made;
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, Operations, testing::ValuesIn(tables()), [](const auto& test) {
-    return fmt::format("{}_{}{}", test.param.level.name, test.param.in_ir ? "i" : "c",
-                       test.param.widths.front());
+    const Setting& setting = test.param.setting;
+    return fmt::format("{}_{}{}{}", setting.level.name, setting.in_ir ? "i" : "c",
+                       test.param.widths.front(), setting.undocumented ? "_undocumented" : "");
 });
 
 class BitFields : public testing::TestWithParam<Level> {};
 
 TEST_P(BitFields, KeepTheirValuesAndLeaveTheirNeighboursAlone) {
-    check_all(field_cases(1, 20), false, GetParam().level);
+    for (const bool undocumented : {false, true}) {
+        check_all(field_cases(1, 20), {GetParam(), false, undocumented});
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Levels, BitFields, testing::Values(kLevels.front(), kLevels.back()),

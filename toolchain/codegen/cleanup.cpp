@@ -71,6 +71,9 @@ private:
         find_accesses();
         live_ = find_live(items_, exits_, accesses_, at_return_);
         dropped_.assign(items_.size(), false);
+        uses_k_ = std::any_of(items_.begin(), items_.end(), [](const CodeItem& item) {
+            return is_instruction(item) && op::asks_k(item.opcode);
+        });
     }
 
     void find_accesses() {
@@ -101,6 +104,7 @@ private:
 
     // -- Questions -------------------------------------------------------------------------------
     [[nodiscard]] bool dead(ResourceSet which) const { return (live_[at_].registers & which) == 0; }
+    [[nodiscard]] bool k_is_dead() const { return !uses_k_ || dead(kK); }
     [[nodiscard]] ValueNumber slot(uint32_t i = 0) const {
         return known_->state.slots[accesses_[at_].first + i];
     }
@@ -240,7 +244,7 @@ private:
         } else {
             return false;
         }
-        if (distance != 1 && distance != -1) return false;
+        if ((distance != 1 && distance != -1) || !k_is_dead()) return false;
         const auto pair = static_cast<Pair>(static_cast<unsigned>(high) / 2);
         become(by_pair(distance == 1 ? op::kInx : op::kDcx, pair));
         return true;
@@ -294,7 +298,7 @@ private:
         if (target == Register::a && subtract_from_borrow(item)) return;
         if (known_->in(target) == value) return drop();
         if (known_->find(value, set_of(target))) return move_from(target, value);
-        if (dead(kSign)) {
+        if (dead(kSign) && k_is_dead()) {
             const int distance = distance_to(value, known_->in(target));
             if (distance == 1) return become(by_register(op::kInr, target));
             if (distance == -1) return become(by_register(op::kDcr, target));
@@ -357,7 +361,8 @@ private:
         const bool clears = item.opcode == kXraA && dead(kFlags);
         if (clears && known_->constant_in(Register::a) == 0) return drop();
         const bool tests = item.opcode == kOraA || item.opcode == kAnaA;
-        if (tests && dead(kCarry) && known_->state.tested == known_->in(Register::a)) drop();
+        if (tests && dead(kCarry) && k_is_dead() && known_->state.tested == known_->in(Register::a))
+            drop();
     }
 
     void rewrite_xchg() {
@@ -471,6 +476,7 @@ private:
     std::vector<bool> dropped_{};
     KnownValues* known_ = nullptr;
     std::size_t at_ = 0;
+    bool uses_k_ = false;  ///< some jump asks for K
     bool changed_ = false;
 };
 

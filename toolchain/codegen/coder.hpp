@@ -32,9 +32,11 @@ inline constexpr std::array<Pair, 3> kPairs = {Pair::hl, Pair::de, Pair::bc};
 /// What registers and slots hold at a point of a block.
 struct State {
     std::array<ByteId, 8> content{kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-    std::array<Base, 3> sum{};  ///< of pairs whose bytes have no id
-    Bits in_slot{};             ///< by local number
-    ByteId tested = kNone;      ///< Z and S tell about this byte
+    std::array<Base, 3> sum{};                      ///< of pairs whose bytes have no id
+    Bits in_slot{};                                 ///< by local number
+    ByteId tested = kNone;                          ///< Z and S tell about this byte
+    ByteId sign_in_carry = kNone;                   ///< CY is its top bit
+    std::array<ByteId, 2> zero_in_k{kNone, kNone};  ///< K tells whether this word is 0
 
     bool operator==(const State&) const = default;
 };
@@ -146,6 +148,7 @@ public:
 
 private:
     bool load_near(Pair pair, const Base& wanted);
+    bool load_by_ldhi(const Base& wanted);
     void load_from_slot(Register which, ByteId byte);
     void load_word_from_slot(Pair pair, ByteId low, ByteId high);
     void load_bytes(Pair pair, ByteId low, ByteId high);
@@ -189,6 +192,19 @@ inline constexpr uint8_t kNop = 0x00, kLxi = 0x01, kStax = 0x02, kInx = 0x03, kI
                          kJc = 0xDA, kIn = 0xDB, kXthl = 0xE3, kPchl = 0xE9, kXchg = 0xEB,
                          kPopPsw = 0xF1, kJp = 0xF2, kDi = 0xF3, kPushPsw = 0xF5, kSphl = 0xF9,
                          kJm = 0xFA, kEi = 0xFB, kDadSp = 0x39, kLxiSp = 0x31;
+// Undocumented: HL = HL - BC; HL to the right, with its sign; DE to the left through the carry;
+// DE = HL + d8; a word from and to where DE points; jumps on K.
+inline constexpr uint8_t kDsub = 0x08, kArhl = 0x10, kRdel = 0x18, kLdhi = 0x28, kShlx = 0xD9,
+                         kJnk = 0xDD, kLhlx = 0xED, kJk = 0xFD;
+
+/// Is it a jump on K? There are no returns and calls on K.
+[[nodiscard]] constexpr bool asks_k(uint8_t opcode) {
+    return opcode == kJnk || opcode == kJk;
+}
+/// Of a conditional jump, return or call: the one that is taken where this one is not.
+[[nodiscard]] constexpr uint8_t inverted(uint8_t opcode) {
+    return static_cast<uint8_t>(opcode ^ (asks_k(opcode) ? kJnk ^ kJk : 0x08));
+}
 }  // namespace op
 
 namespace alu {

@@ -284,6 +284,20 @@ bool Coder::load_near(Pair pair, const Base& wanted) {
     return true;
 }
 
+// DE from a word in HL that is 1 to 255 less.
+bool Coder::load_by_ldhi(const Base& wanted) {
+    const Base have = sum_in(Pair::hl);
+    const int32_t distance = static_cast<int16_t>(wanted.delta - have.delta);
+    const bool near = have.same_base(wanted) && distance > 0 && distance <= UINT8_MAX;
+    if (!facts_->undocumented || !near) return false;
+    const RegisterSet before = locks;
+    lock(Pair::hl);
+    vacate(Pair::de);
+    locks = before;
+    if (!failed) emit_number(op::kLdhi, distance);
+    return true;
+}
+
 void Coder::load_word_from_slot(Pair pair, ByteId low, ByteId high) {
     if (pair != Pair::bc || (free_now(Register::h) && free_now(Register::l))) vacate(pair);
     if (failed) return;
@@ -328,6 +342,13 @@ void Coder::load_bytes(Pair pair, ByteId low, ByteId high) {
     const bool low_done = holds(first, low);
     const bool high_done = holds(second, high);
     if (low_done && high_done) return;
+    // Another word that is in the way moves as a whole: where words are moved by LHLX and SHLX it
+    // is needed as one again.
+    const auto is_wanted = [&](ByteId byte) { return byte == low || byte == high; };
+    if (facts_->undocumented && !is_wanted(content(first)) && !is_wanted(content(second)) &&
+        !locked(pair))
+        vacate(pair);
+    if (failed) return;
     const bool low_in_second =
         content(second) == low &&
         find(low, static_cast<RegisterSet>(~set_of(second))) == Register::flags;
@@ -369,6 +390,10 @@ void Coder::load(Pair pair, ByteId low, ByteId high) {
     }
     const Base wanted = facts_->base_of(low, high);
     if (load_near(pair, wanted)) {
+        set(pair, low, high);
+        return;
+    }
+    if (pair == Pair::de && load_by_ldhi(wanted)) {
         set(pair, low, high);
         return;
     }

@@ -171,6 +171,7 @@ private:
         options.search = options_.search;
         options.search_budget = options_.search_budget;
         options.byte_cost = options_.byte_cost;
+        options.undocumented = options_.undocumented;
         options.clobbers_of = [this](SymbolId symbol) { return clobbers_of(symbol); };
         set_pointer_clobbers(module_.functions[index]);
         code_[index] = generator_(module_, module_.functions[index], options);

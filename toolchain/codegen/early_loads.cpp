@@ -95,8 +95,16 @@ private:
         const std::size_t place = places_.at(label);
         if (uses_.at(label) != 1 || place == 0 || !ends_flow(items_[place - 1])) return {};
         const auto found = loads_from(place + 1);
-        if (!found || !may_come_early(*found, branch, branch + 1)) return {};
+        if (!found || !may_redirect(branch, *found)) return {};
+        if (!may_come_early(*found, branch, branch + 1)) return {};
         return found;
+    }
+
+    /// There is no return on K.
+    [[nodiscard]] bool may_redirect(std::size_t branch, const Found& found) const {
+        const CodeItem& behind = items_[found.end];
+        const bool returns = is_instruction(behind) && behind.opcode == op::kRet;
+        return !returns || !op::asks_k(items_[branch].opcode);
     }
 
     // Between the branch and where it goes.
@@ -104,6 +112,7 @@ private:
         const auto found = loads_from(branch + 1);
         if (!found || is_label(items_[found->end])) return {};
         const std::size_t place = places_.at(items_[branch].operand.id);
+        if (!may_redirect(branch, *found)) return {};
         const bool over = place == found->end + 1 && may_come_early(*found, branch, place);
         return over ? found : std::nullopt;
     }
@@ -205,7 +214,7 @@ private:
 
     void apply_passed(std::size_t branch, const Found& found) {
         const Items loads = taken_out(found);
-        items_[branch].opcode ^= 0x08;
+        items_[branch].opcode = op::inverted(items_[branch].opcode);
         redirect(items_[branch], items_[found.end]);
         erase(found.first, found.end + 1);
         items_.insert(items_.begin() + static_cast<std::ptrdiff_t>(branch), loads.begin(),

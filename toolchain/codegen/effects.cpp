@@ -1,6 +1,7 @@
 // effects.cpp - see effects.hpp.
 #include "toolchain/codegen/effects.hpp"
 
+#include "toolchain/codegen/coder.hpp"
 #include "toolchain/isa/instruction_set.hpp"
 
 namespace toolchain::codegen {
@@ -28,7 +29,6 @@ void use(Effects& effects, unsigned which, bool reads, bool writes) {
                                      : MemoryAccess::write;
 }
 
-// The undocumented flags do not count.
 ResourceSet flags_written(uint8_t opcode) {
     constexpr uint8_t kSignFlags =
         isa::flag::kSign | isa::flag::kZero | isa::flag::kAuxiliaryCarry | isa::flag::kParity;
@@ -36,12 +36,48 @@ ResourceSet flags_written(uint8_t opcode) {
     ResourceSet set = 0;
     if ((flags & isa::flag::kCarry) != 0) set |= kCarry;
     if ((flags & kSignFlags) != 0) set |= kSign;
+    if ((flags & isa::flag::kK) != 0) set |= kK;
     return set;
 }
 
 ResourceSet condition_of(uint8_t opcode) {
+    if (op::asks_k(opcode)) return kK;
     const unsigned condition = opcode >> 3 & 7U;
     return condition == 2 || condition == 3 ? kCarry : kSign;
+}
+
+/// The undocumented ones but jumps. @return  false: it is none of them
+bool undocumented(Effects& effects, uint8_t opcode) {
+    switch (opcode) {
+        case op::kDsub:
+            effects.reads |= kHl | kBc;
+            effects.writes |= kHl | kFlags;
+            break;
+        case op::kArhl:
+            effects.reads |= kHl;
+            effects.writes |= kHl | kCarry;
+            break;
+        case op::kRdel:
+            effects.reads |= kDe | kCarry;
+            effects.writes |= kDe | kCarry;
+            break;
+        case op::kLdhi:
+            effects.reads |= kHl;
+            effects.writes |= kDe;
+            break;
+        case op::kShlx:
+        case op::kLhlx:
+            effects.pointer = 1;
+            effects.size = 2;
+            effects.reads |= kDe;
+            effects.memory = opcode == op::kShlx ? MemoryAccess::write : MemoryAccess::read;
+            (opcode == op::kShlx ? effects.reads : effects.writes) |= kHl;
+            return true;
+        default:
+            return false;
+    }
+    effects.pure = true;
+    return true;
 }
 
 // 00H to 3FH.
@@ -57,11 +93,12 @@ void low_quarter(Effects& effects, uint8_t opcode) {
         case 0x0B:  // DCX
             effects.reads |= pair_of(pair);
             effects.writes |= pair_of(pair);
+            effects.writes |= kK;
             effects.pure = pair != 3;
             return;
         case 0x09:  // DAD
             effects.reads = static_cast<ResourceSet>(kHl | pair_of(pair));
-            effects.writes |= kHl | kCarry;
+            effects.writes |= kHl | kCarry | kK;
             effects.pure = pair != 3;
             return;
         case 0x02:
@@ -85,7 +122,7 @@ void low_quarter(Effects& effects, uint8_t opcode) {
         case 4:  // INR
         case 5:  // DCR
             use(effects, which, true, true);
-            effects.writes |= kSign;
+            effects.writes |= kSign | kK;
             effects.pure = which != kMemory;
             return;
         case 6:  // MVI
@@ -174,6 +211,7 @@ Effects effects_of(const CodeItem& item) {
     const uint8_t opcode = item.opcode;
     const unsigned to = opcode >> 3 & 7U;
     const unsigned from = opcode & 7U;
+    if (undocumented(effects, opcode)) return effects;
     if (opcode < 0x40) {
         low_quarter(effects, opcode);
     } else if (opcode < 0x80) {

@@ -14,14 +14,15 @@ using ResourceSet = uint16_t;
 namespace resource {
 inline constexpr ResourceSet kSign = 1U << 6;   ///< S, Z, AC and P
 inline constexpr ResourceSet kCarry = 1U << 8;  ///< CY
+inline constexpr ResourceSet kK = 1U << 9;      ///< undocumented: of JK and JNK
 inline constexpr ResourceSet kA = 1U << 7;
 inline constexpr ResourceSet kBc = 0x03, kDe = 0x0C, kHl = 0x30;
-inline constexpr ResourceSet kFlags = kSign | kCarry;
-inline constexpr ResourceSet kAll = 0x1FF;
+inline constexpr ResourceSet kFlags = kSign | kCarry | kK;
+inline constexpr ResourceSet kAll = 0x3FF;
 
 /// Of registers that stand in a RegisterSet; its bit for the flags is all of them.
 [[nodiscard]] constexpr ResourceSet of(RegisterSet set) {
-    return static_cast<ResourceSet>(set | ((set & set_of(Register::flags)) != 0 ? kCarry : 0U));
+    return static_cast<ResourceSet>(set | ((set & set_of(Register::flags)) != 0 ? kFlags : 0U));
 }
 [[nodiscard]] constexpr ResourceSet of(unsigned which) {
     return static_cast<ResourceSet>(1U << which);

@@ -96,6 +96,7 @@ struct BlockFacts {
 /// equal ids, and what nobody uses is gone.
 struct FunctionFacts {
     Function function{};
+    bool undocumented = false;              ///< the instructions that Intel left out may be used
     std::vector<uint32_t> variable{};       ///< of each byte that may be stored, else kNone
     std::vector<uint32_t> index{};          ///< of each byte in its variable
     std::vector<uint32_t> variable_size{};  ///< bytes

@@ -2,6 +2,8 @@
 // stack. Depends on   homes.hpp, peephole.hpp.
 #include "toolchain/codegen/generate.hpp"
 
+#include "toolchain/codegen/effects.hpp"
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -37,7 +39,9 @@ CodeOperand number(int32_t value) {
 class Generator {
 public:
     Generator(const Module& module, const Function& function, const GenerateOptions& options)
-        : module_(module), options_(options), facts_(find_facts(function)) {}
+        : module_(module), options_(options), facts_(find_facts(function)) {
+        facts_.undocumented = options.undocumented;
+    }
 
     FunctionCode run() {
         next_label_ = static_cast<uint32_t>(facts_.function.blocks.size());
@@ -128,6 +132,11 @@ private:
     // -- What it changes -------------------------------------------------------------------------
     static RegisterSet written_by(uint8_t opcode) {
         const isa::Instruction& instruction = isa::instruction(opcode);
+        if (!instruction.documented) {
+            CodeItem item;
+            item.opcode = opcode;
+            return static_cast<RegisterSet>(effects_of(item).writes & kAllRegisters);
+        }
         RegisterSet set = instruction.flags != 0 ? set_of(Register::flags) : RegisterSet{0};
         const unsigned high = opcode >> 3 & 7U;
         const auto register_bit = [](unsigned which) {

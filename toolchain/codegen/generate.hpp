@@ -13,6 +13,7 @@ struct GenerateOptions {
     bool search = true;  ///< look for register homes; without it every value lives in memory
     uint64_t search_budget = 0;    ///< operations to translate at most while searching; 0: by size
     double byte_cost = 1;          ///< T-states per execution that a byte of code is worth
+    bool undocumented = false;     ///< the instructions that Intel left out may be used
     uint64_t homes_by_chance = 0;  ///< for tests: a seed; registers are right, but not good
     /// What a call of a function may change. Not asked for runtime routines.
     std::function<RegisterSet(SymbolId)> clobbers_of{};

@@ -61,7 +61,7 @@ bool thread_jumps(Items& items) {
             target.operand.id != item.operand.id) {
             item.operand.id = target.operand.id;
             changed = true;
-        } else if (target.opcode == op::kRet && !word) {
+        } else if (target.opcode == op::kRet && !word && !op::asks_k(item.opcode)) {
             // Jcc to RET is Rcc: the same condition bits with other low bits.
             item.opcode =
                 item.opcode == op::kJmp ? op::kRet : static_cast<uint8_t>((item.opcode & 0xF8));
@@ -111,14 +111,15 @@ bool drop_jumps(Items& items) {
                           items[next].opcode == op::kJmp && jumps_to_label(items[next]) &&
                           target > next && next_instruction(items, next + 1) >= target;
         if (over) {
-            items[i].opcode ^= 0x08;
+            items[i].opcode = op::inverted(items[i].opcode);
             items[i].operand = items[next].operand;
             items.erase(items.begin() + static_cast<std::ptrdiff_t>(next));
             return true;
         }
         const bool over_return = next < items.size() && items[i].opcode != op::kJmp &&
-                                 is_instruction(items[next]) && items[next].opcode == op::kRet &&
-                                 target > next && next_instruction(items, next + 1) >= target;
+                                 !op::asks_k(items[i].opcode) && is_instruction(items[next]) &&
+                                 items[next].opcode == op::kRet && target > next &&
+                                 next_instruction(items, next + 1) >= target;
         if (over_return) {  // Jcc and Rcc differ in their low bits
             items[i].opcode = static_cast<uint8_t>((items[i].opcode ^ 0x08) & 0xF8);
             items[i].operand = {};

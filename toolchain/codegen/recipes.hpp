@@ -13,13 +13,16 @@
 
 namespace toolchain::codegen {
 
-/// The condition of a jump as in its opcode.
-enum class Condition : uint8_t { nz, z, nc, c, po, pe, p, m };
+/// The condition of a jump, the first eight as in its opcode. K is set by a signed "less", and by a
+/// count that passes 0; undocumented.
+enum class Condition : uint8_t { nz, z, nc, c, po, pe, p, m, nk, k };
 
 [[nodiscard]] constexpr Condition inverse(Condition condition) {
     return static_cast<Condition>(static_cast<uint8_t>(condition) ^ 1U);
 }
 [[nodiscard]] constexpr uint8_t jump_if(Condition condition) {
+    if (condition == Condition::nk) return op::kJnk;
+    if (condition == Condition::k) return op::kJk;
     return static_cast<uint8_t>(0xC2 | static_cast<unsigned>(condition) << 3);
 }
 
@@ -69,6 +72,7 @@ void add_sums(Ways& ways, const Coder& start, const Operation& operation,
               const RecipeContext& context);
 void add_logic(Ways& ways, const Coder& start, const Operation& operation);
 void add_shifts(Ways& ways, const Coder& start, const Operation& operation);
+void add_undocumented_shifts(Ways& ways, const Coder& start, const Operation& operation);
 void add_loads(Ways& ways, const Coder& start, const Operation& operation);
 void add_stores(Ways& ways, const Coder& start, const Operation& operation);
 void add_compare(Ways& ways, const Coder& start, const Operation& operation,
@@ -87,8 +91,16 @@ using Wanted = std::array<ByteId, 8>;
 /// Brings values into registers, all at once. False if this order of doing it fails.
 [[nodiscard]] bool bring(Coder& coder, const Wanted& wanted);
 
+/// Loads a byte into A, or a word into HL, for being destroyed.
+void take_a(Coder& coder, ByteId byte);
+void take_hl(Coder& coder, ByteId low, ByteId high);
+
 /// A way to do A = A operation byte with A kept from being used for anything else.
 void alu_on_a(Coder& coder, unsigned operation, ByteId byte);
+
+/// Brings the words at `at` to HL, whose value may then be destroyed, and BC; bytes of both above
+/// them are kept. @return  false: it failed
+bool load_for_dsub(Coder& coder, const Bytes& left, const Bytes& right, std::size_t at);
 
 /// Does the byte occur among those?
 [[nodiscard]] bool occurs(const Bytes& bytes, ByteId byte, std::size_t from = 0);

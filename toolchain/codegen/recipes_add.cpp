@@ -106,6 +106,35 @@ void add_steps_of_byte(Ways& ways, const Coder& start, const Operation& operatio
     }
 }
 
+void step_pair(Coder& coder, Pair pair, const Bytes& results, int step) {
+    for (int i = 0; i < std::abs(step); ++i) {
+        coder.emit(by_pair(step > 0 ? op::kInx : op::kDcx, pair));
+    }
+    coder.set(pair, results[0], results[1]);
+    // INX from FFFFH sets K.
+    if (step > 0 && coder.facts().undocumented) coder.state.zero_in_k = {results[0], results[1]};
+}
+
+// LDHI: a word up to 255 more than one in HL goes to DE.
+void add_word_by_ldhi(Ways& ways, const Coder& start, const Operation& operation, int step) {
+    const Base wanted = start.facts().base_of(operation.results[0], operation.results[1]);
+    const Base have = start.sum_in(Pair::hl);
+    const int distance = static_cast<int16_t>(wanted.delta - have.delta);
+    const bool near = have.same_base(wanted);
+    if (!start.facts().undocumented || (near ? distance : step) < 0 ||
+        (near ? distance : step) > UINT8_MAX) {
+        return;
+    }
+    add_way(ways, start, [&](Coder& coder) {
+        if (!near) coder.load(Pair::hl, operation.left[0], operation.left[1]);
+        coder.lock(Pair::hl);
+        coder.vacate(Pair::de, true);
+        if (coder.failed) return;
+        coder.emit_number(op::kLdhi, near ? distance : step);
+        coder.set(Pair::de, operation.results[0], operation.results[1]);
+    });
+}
+
 // INX and DCX, from the operand or from anything near it.
 void add_steps_of_word(Ways& ways, const Coder& start, const Operation& operation, int step) {
     constexpr int kMost = 4;
@@ -117,20 +146,14 @@ void add_steps_of_word(Ways& ways, const Coder& start, const Operation& operatio
             add_way(ways, start, [&](Coder& coder) {
                 coder.copy_out(pair, true, true);
                 if (coder.failed) return;
-                for (int i = 0; i < std::abs(distance); ++i) {
-                    coder.emit(by_pair(distance > 0 ? op::kInx : op::kDcx, pair));
-                }
-                coder.set(pair, operation.results[0], operation.results[1]);
+                step_pair(coder, pair, operation.results, distance);
             });
         } else if (std::abs(step) <= kMost) {
             add_way(ways, start, [&](Coder& coder) {
                 coder.load(pair, operation.left[0], operation.left[1]);
                 coder.copy_out(pair, true, true);
                 if (coder.failed) return;
-                for (int i = 0; i < std::abs(step); ++i) {
-                    coder.emit(by_pair(step > 0 ? op::kInx : op::kDcx, pair));
-                }
-                coder.set(pair, operation.results[0], operation.results[1]);
+                step_pair(coder, pair, operation.results, step);
             });
         }
     }
@@ -288,6 +311,74 @@ void add_long_dads(Ways& ways, const Coder& start, const Operation& operation,
     }
 }
 
+// The lowest word by DAD or DSUB, the bytes above by A with the carry that it leaves.
+void run_word_chain(Coder& coder, const Chain& chain, Pair other, Pair low, const Places& upper) {
+    if (other == Pair::hl) {
+        if (!load_for_dsub(coder, chain.left, chain.right, 0)) return;
+        coder.emit(op::kDsub);
+    } else {
+        dad_word(coder, chain.left, chain.right, 0, other, false);
+        if (coder.failed) return;
+        const bool same = chain.left[0] == chain.right[0] && chain.left[1] == chain.right[1];
+        coder.emit(by_pair(op::kDad, same ? Pair::hl : other));
+    }
+    coder.set(Pair::hl, chain.results[0], chain.results[1]);
+    if (low == Pair::hl) {
+        coder.lock(Pair::hl);
+    } else if (low == Pair::bc) {
+        coder.lock(Pair::hl);
+        make_room(coder, low, chain.left, chain.right, 2);
+        if (coder.failed) return;
+        coder.emit(mov(Register::c, Register::l));
+        coder.emit(mov(Register::b, Register::h));
+        coder.set(low, chain.results[0], chain.results[1]);
+        coder.lock(low);
+        coder.unlock(set_of(Pair::hl));
+    } else {
+        coder.store(Pair::hl);
+    }
+    for (std::size_t i = 2; i < chain.results.size() && !coder.failed; ++i) {
+        coder.load(Register::a, chain.left[i]);
+        make_room(coder, Register::a, chain.left, chain.right, i + 1);
+        if (coder.failed) return;
+        alu_on_a(coder, chain.next, chain.right[i]);
+        coder.set(Register::a, chain.results[i]);
+        coder.lock(Register::a);
+        place_result(coder, chain.results[i], upper[i - 2], chain.left, chain.right, i + 1);
+        coder.unlock(set_of(Register::a));
+    }
+}
+
+/// `low`: where the word goes; DE stands for its slot.
+void add_word_chain(Ways& ways, const Coder& start, const Chain& chain, Pair other) {
+    using enum Register;
+    const bool byte = chain.results.size() == 3;
+    const std::vector<Places> uppers =
+        byte ? std::vector<Places>{{a}} : std::vector<Places>{{e, d}, {l, h}, {c, b}};
+    for (const Pair low : {Pair::hl, Pair::bc, Pair::de}) {
+        for (const Places& upper : uppers) {
+            const bool taken = upper[0] == low_of(low) && low != Pair::de;
+            if (taken) continue;
+            add_way(ways, start,
+                    [&](Coder& coder) { run_word_chain(coder, chain, other, low, upper); });
+        }
+    }
+}
+
+void add_word_chains(Ways& ways, const Coder& start, const Operation& operation) {
+    if (operation.results.size() > 4) return;
+    if (operation.opcode == Opcode::subtract) {
+        if (!start.facts().undocumented) return;
+        const Chain chain{alu::kSub, alu::kSbb, operation.left, operation.right, operation.results};
+        return add_word_chain(ways, start, chain, Pair::hl);
+    }
+    for (const bool swapped : {false, true}) {
+        const Chain chain{alu::kAdd, alu::kAdc, swapped ? operation.right : operation.left,
+                          swapped ? operation.left : operation.right, operation.results};
+        for (const Pair other : {Pair::de, Pair::bc}) add_word_chain(ways, start, chain, other);
+    }
+}
+
 /// The number if the operand is one.
 bool small_number(const FunctionFacts& facts, const Bytes& bytes, int& number) {
     uint32_t value = 0;
@@ -315,6 +406,18 @@ void place_result(Coder& coder, ByteId result, Register place, const Bytes& left
     coder.lock(place);
 }
 
+bool load_for_dsub(Coder& coder, const Bytes& left, const Bytes& right, std::size_t at) {
+    coder.load(Pair::bc, right[at], right[at + 1]);
+    coder.lock(Pair::bc);
+    coder.load(Pair::hl, left[at], left[at + 1]);
+    make_room(coder, Pair::hl, left, right, at + 2);
+    coder.unlock(set_of(Pair::bc));
+    if (!word_in(left, at, coder, Pair::hl) || !word_in(right, at, coder, Pair::bc)) {
+        coder.failed = true;
+    }
+    return !coder.failed;
+}
+
 void add_sums(Ways& ways, const Coder& start, const Operation& operation,
               const RecipeContext& context) {
     const bool sum = operation.opcode == Opcode::add;
@@ -325,12 +428,21 @@ void add_sums(Ways& ways, const Coder& start, const Operation& operation,
             add_steps_of_byte(ways, start, operation, number);
         }
         if (size == 2) add_steps_of_word(ways, start, operation, number);
+        if (size == 2) add_word_by_ldhi(ways, start, operation, number);
     }
     if (sum && size == 2) {
         add_dads(ways, start, operation);
         add_byte_to_word(ways, start, operation, context);
     }
     if (sum && size == 4) add_long_dads(ways, start, operation, context);
+    if (size > 2) add_word_chains(ways, start, operation);
+    if (!sum && size == 2 && start.facts().undocumented) {
+        add_way(ways, start, [&](Coder& coder) {
+            if (!load_for_dsub(coder, operation.left, operation.right, 0)) return;
+            coder.emit(op::kDsub);
+            coder.set(Pair::hl, operation.results[0], operation.results[1]);
+        });
+    }
     const unsigned first = sum ? alu::kAdd : alu::kSub;
     const unsigned next = sum ? alu::kAdc : alu::kSbb;
     add_chains(ways, start, {first, next, operation.left, operation.right, operation.results});

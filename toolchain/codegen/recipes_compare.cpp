@@ -58,8 +58,20 @@ void add_tests(std::vector<Decision>& ways, const Coder& start, ByteId byte, Con
     });
 }
 
+/// The carry may hold the top bit already: of a value that was doubled.
+void add_sign_tests(std::vector<Decision>& ways, const Coder& start, ByteId byte, bool set) {
+    if (start.state.sign_in_carry == byte) {
+        add_decision(ways, start, set ? Condition::c : Condition::nc, [](Coder&) {});
+    }
+    add_tests(ways, start, byte, set ? Condition::m : Condition::p);
+}
+
 void add_zero_test(std::vector<Decision>& ways, const Coder& start, const Bytes& value) {
     if (value.size() == 1) return add_tests(ways, start, value[0], Condition::z);
+    const auto& counted = start.state.zero_in_k;
+    if (value.size() == 2 && counted[0] == value[0] && counted[1] == value[1]) {
+        add_decision(ways, start, Condition::k, [](Coder&) {});
+    }
     // Begin with what is in A, or else with any byte.
     for (std::size_t first = 0; first < value.size(); ++first) {
         if (first > 0 && start.content(Register::a) != value[first]) continue;
@@ -126,11 +138,12 @@ void add_stepwise_equal(std::vector<Decision>& ways, const Coder& start, const B
 
 // -- Order ---------------------------------------------------------------------------------------
 
+/// @param condition  behind the subtraction: the borrow, or K for numbers with signs
 void add_below(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
-               const Bytes& right) {
+               const Bytes& right, Condition condition) {
     std::size_t first = 0;
     while (first + 1 < right.size() && is_number(start, right[first], 0)) ++first;
-    add_decision(ways, start, Condition::c, [&](Coder& coder) {
+    add_decision(ways, start, condition, [&](Coder& coder) {
         const bool single = first + 1 == left.size();
         for (std::size_t i = first; i < left.size() && !coder.failed; ++i) {
             if (single) {
@@ -144,6 +157,31 @@ void add_below(std::vector<Decision>& ways, const Coder& start, const Bytes& lef
             coder.set(Register::a, kNone);
         }
     });
+}
+
+/// DSUB of the lowest words, the bytes above by A: CY is the borrow, and K says "less".
+void add_order_by_dsub(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
+                       const Bytes& right, Condition condition) {
+    if (!start.facts().undocumented || left.size() < 2) return;
+    add_decision(ways, start, condition, [&](Coder& coder) {
+        if (!load_for_dsub(coder, left, right, 0)) return;
+        coder.emit(op::kDsub);
+        coder.set(Pair::hl, kNone, kNone);
+        for (std::size_t i = 2; i < left.size() && !coder.failed; ++i) {
+            take(coder, left, right, i);
+            if (coder.failed) return;
+            alu_on_a(coder, alu::kSbb, right[i]);
+            coder.set(Register::a, kNone);
+        }
+    });
+}
+
+/// Behind a subtraction K says "less".
+void add_less_by_k(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
+                   const Bytes& right) {
+    if (!start.facts().undocumented) return;
+    add_below(ways, start, left, right, Condition::k);
+    add_order_by_dsub(ways, start, left, right, Condition::k);
 }
 
 // Less if borrow, sign of left and sign of right differ in an odd number: RAR brings the borrow
@@ -199,15 +237,17 @@ std::vector<Decision> decide(const Coder& start, Predicate predicate, const Byte
             }
             break;
         case Predicate::below:
-            add_below(ways, start, left, right);
+            add_below(ways, start, left, right, Condition::c);
+            add_order_by_dsub(ways, start, left, right, Condition::c);
             break;
         default:
             if (all(start, right, 0)) {
-                add_tests(ways, start, left.back(), Condition::m);
+                add_sign_tests(ways, start, left.back(), true);
             } else if (all(start, left, 0xFF)) {
-                add_tests(ways, start, right.back(), Condition::p);
+                add_sign_tests(ways, start, right.back(), false);
             } else {
                 add_less(ways, start, left, right);
+                add_less_by_k(ways, start, left, right);
             }
             break;
     }
@@ -304,7 +344,8 @@ void add_compare(Ways& ways, const Coder& start, const Operation& operation,
             } else {
                 coder.emit(by_register(op::kInr, Register::a));
             }
-        } else if (ends_with_less) {
+        } else if (ends_with_less &&
+                   (way.condition == Condition::m || way.condition == Condition::p)) {
             emit_top_bit(coder, way.condition == Condition::p);
             coder.state.tested = kNone;
         } else {

@@ -165,6 +165,39 @@ void load_through(Coder& coder, const Operation& operation, const Places& places
     }
 }
 
+/// LHLX: one or two words from where DE points. @param low  where the lower of two goes; DE stands
+/// for its slot
+void load_by_lhlx(Coder& coder, const Operation& operation, Pair low) {
+    const Bytes& address = operation.left;
+    const Bytes& results = operation.results;
+    const bool two = results.size() == 4;
+    coder.load(Pair::de, address[0], address[1]);
+    if (two) coder.copy_out(Pair::de, true, true);
+    coder.lock(Pair::de);
+    coder.vacate(Pair::hl, true);
+    if (coder.failed) return;
+    coder.emit(op::kLhlx);
+    coder.set(Pair::hl, results[0], results[1]);
+    if (!two) return;
+    if (low == Pair::bc) {
+        coder.lock(Pair::hl);
+        coder.vacate(low, true);
+        if (coder.failed) return;
+        coder.emit(mov(Register::c, Register::l));
+        coder.emit(mov(Register::b, Register::h));
+        coder.set(low, results[0], results[1]);
+        coder.lock(low);
+    } else {
+        coder.store(Pair::hl);
+    }
+    const Base base = coder.facts().base_of(address[0], address[1]);
+    coder.emit(by_pair(op::kInx, Pair::de));
+    coder.emit(by_pair(op::kInx, Pair::de));
+    coder.set_sum(Pair::de, moved(base, 2));
+    coder.emit(op::kLhlx);
+    coder.set(Pair::hl, results[2], results[3]);
+}
+
 // -- Stores --------------------------------------------------------------------------------------
 
 void store_fixed(Coder& coder, const Operation& operation, bool words) {
@@ -197,6 +230,34 @@ void store_byte(Coder& coder, ByteId byte, Pair pair) {
     if (!coder.facts().undefined(byte)) coder.load(Register::a, byte);
     if (coder.failed) return;
     coder.emit(pair == Pair::hl ? mov_to_memory(Register::a) : by_pair(op::kStax, pair));
+}
+
+/// SHLX: one or two words to where DE points.
+void store_by_shlx(Coder& coder, const Operation& operation, bool address_first) {
+    const Bytes& address = operation.left;
+    const Bytes& value = operation.right;
+    if (address_first) {
+        coder.load(Pair::de, address[0], address[1]);
+        coder.lock(Pair::de);
+    }
+    coder.load(Pair::hl, value[0], value[1]);
+    coder.lock(Pair::hl);
+    if (!address_first) coder.load(Pair::de, address[0], address[1]);
+    const bool two = value.size() == 4;
+    coder.unlock(set_of(Pair::de));
+    if (two) coder.copy_out(Pair::de, !occurs(value, address[0]), !occurs(value, address[1]));
+    coder.lock(Pair::de);
+    if (coder.failed) return;
+    coder.emit(op::kShlx);
+    if (!two) return;
+    const Base base = coder.facts().base_of(address[0], address[1]);
+    coder.emit(by_pair(op::kInx, Pair::de));
+    coder.emit(by_pair(op::kInx, Pair::de));
+    coder.set_sum(Pair::de, moved(base, 2));
+    coder.unlock(set_of(Pair::hl));
+    coder.load(Pair::hl, value[2], value[3]);
+    if (coder.failed) return;
+    coder.emit(op::kShlx);
 }
 
 void store_through(Coder& coder, const Operation& operation, Pair pair, Register preload) {
@@ -233,6 +294,12 @@ void store_through(Coder& coder, const Operation& operation, Pair pair, Register
 void add_loads(Ways& ways, const Coder& start, const Operation& operation) {
     const std::size_t size = operation.results.size();
     std::vector<Places> choices = places_for(size);
+    if (start.facts().undocumented && (size == 2 || size == 4)) {
+        for (const Pair low : {Pair::bc, Pair::de}) {
+            if (size == 2 && low == Pair::de) continue;
+            add_way(ways, start, [&](Coder& coder) { load_by_lhlx(coder, operation, low); });
+        }
+    }
     if (size == 1) {
         for (const Register which : kRegisters) choices.push_back({which});
     }
@@ -252,6 +319,13 @@ void add_stores(Ways& ways, const Coder& start, const Operation& operation) {
         for (const bool words : {false, true}) {
             if (words && operation.right.size() == 1) continue;
             add_way(ways, start, [&](Coder& coder) { store_fixed(coder, operation, words); });
+        }
+    }
+    const std::size_t size = operation.right.size();
+    if (start.facts().undocumented && (size == 2 || size == 4)) {
+        for (const bool address_first : {false, true}) {
+            add_way(ways, start,
+                    [&](Coder& coder) { store_by_shlx(coder, operation, address_first); });
         }
     }
     for (const Pair pair : kPairs) {

@@ -12,11 +12,6 @@ void repeat(Coder& coder, uint8_t opcode, unsigned count) {
     for (unsigned i = 0; i < count; ++i) coder.emit(opcode);
 }
 
-void take_a(Coder& coder, ByteId byte) {
-    coder.load(Register::a, byte);
-    coder.vacate(Register::a, true);
-}
-
 void add_byte_shifts(Ways& ways, const Coder& start, const Operation& operation) {
     const unsigned count = operation.immediate;
     const ByteId result = operation.results[0];
@@ -38,6 +33,7 @@ void add_byte_shifts(Ways& ways, const Coder& start, const Operation& operation)
             }
         }
         finish(coder);
+        if (left && count == 1) coder.state.sign_in_carry = operation.left[0];
     });
     if (is_signed) return;
     add_way(ways, start, [&](Coder& coder) {
@@ -55,13 +51,6 @@ void add_byte_shifts(Ways& ways, const Coder& start, const Operation& operation)
 
 // -- To the left ---------------------------------------------------------------------------------
 
-/// Loads a word into HL for being destroyed.
-void take_hl(Coder& coder, ByteId low, ByteId high) {
-    coder.load(Pair::hl, low, high);
-    coder.copy_out(Pair::hl, true, true);
-    if (!coder.holds(Pair::hl, low, high)) coder.failed = true;
-}
-
 void add_left_word(Ways& ways, const Coder& start, const Operation& operation) {
     const Bytes& left = operation.left;
     add_way(ways, start, [&](Coder& coder) {
@@ -69,6 +58,7 @@ void add_left_word(Ways& ways, const Coder& start, const Operation& operation) {
         if (coder.failed) return;
         repeat(coder, by_pair(op::kDad, Pair::hl), operation.immediate);
         coder.set(Pair::hl, operation.results[0], operation.results[1]);
+        if (operation.immediate == 1) coder.state.sign_in_carry = left[1];
     });
 }
 
@@ -395,6 +385,17 @@ void add_in_slots(Ways& ways, const Coder& start, const Operation& operation) {
 
 }  // namespace
 
+void take_a(Coder& coder, ByteId byte) {
+    coder.load(Register::a, byte);
+    coder.vacate(Register::a, true);
+}
+
+void take_hl(Coder& coder, ByteId low, ByteId high) {
+    coder.load(Pair::hl, low, high);
+    coder.copy_out(Pair::hl, true, true);
+    if (!coder.holds(Pair::hl, low, high)) coder.failed = true;
+}
+
 void add_shifts(Ways& ways, const Coder& start, const Operation& operation) {
     const std::size_t size = operation.results.size();
     if (operation.opcode == Opcode::sign_fill) {
@@ -408,6 +409,7 @@ void add_shifts(Ways& ways, const Coder& start, const Operation& operation) {
         return;
     }
     if (size == 1) return add_byte_shifts(ways, start, operation);
+    if (start.facts().undocumented) add_undocumented_shifts(ways, start, operation);
     if (operation.opcode == Opcode::shift_left) {
         if (size == 2) add_left_word(ways, start, operation);
         if (size == 3) add_left_three(ways, start, operation);

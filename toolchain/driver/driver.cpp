@@ -212,7 +212,7 @@ private:
     void prepare() {
         clock_.begin("prepare");
         if (request_.level != ir::Optimisation::none) ir::fix_places(*whole_);
-        ir::prepare(*whole_);
+        ir::prepare(*whole_, request_.undocumented);
         std::string problem;
         llvm::raw_string_ostream stream(problem);
         if (llvm::verifyModule(*whole_, &stream)) throw std::logic_error(problem);
@@ -240,6 +240,8 @@ std::vector<assembly::Module> parsed(std::span<const Resource> files) {
 
 std::vector<assembly::Module> runtime_modules(const Request& request) {
     std::vector<assembly::Module> modules = parsed(runtime_files());
+    if (request.undocumented) assembly::replace_sections(modules, parsed(undocumented_files()));
+    if (request.table_multiply) assembly::replace_sections(modules, parsed(table_files()));
     if (request.small_runtime) assembly::replace_sections(modules, parsed(small_files()));
     return modules;
 }
@@ -264,6 +266,7 @@ codegen::Compiled generate(const Request& request, codegen::Module module,
     options.search = request.level != ir::Optimisation::none;
     options.search_budget = request.search_budget;
     options.byte_cost = request.byte_cost;
+    options.undocumented = request.undocumented;
     for (const std::string& root : roots) {
         const auto symbol = module.symbol_ids.find(root);
         if (symbol != module.symbol_ids.end() && module.find(symbol->second) != nullptr) {

@@ -18,6 +18,12 @@ struct Resource {
 /// Those that are small instead of fast, small/*.s85.
 [[nodiscard]] std::span<const Resource> small_files();
 
+/// Those that use undocumented instructions, undocumented/*.s85.
+[[nodiscard]] std::span<const Resource> undocumented_files();
+
+/// Those that multiply by table, table/*.s85.
+[[nodiscard]] std::span<const Resource> table_files();
+
 /// Headers that programs may include: i85.h, string.h.
 [[nodiscard]] std::span<const Resource> include_files();
 

@@ -1,6 +1,8 @@
 // count_down.cpp - counters that only count are counted down to 0, in as few bits as they need; see
 // passes.hpp.
-// Why          `DCR; JNZ` compares for nothing: 14 T-states in one register.
+// Why          `DCR; JNZ` compares for nothing: 14 T-states in one register; so does `INX; JNK` in
+// a
+//              pair, with undocumented instructions.
 // Depends on   libLLVM 19.
 #include <llvm/Analysis/ScalarEvolutionExpressions.h>
 #include <llvm/Analysis/TargetTransformInfo.h>
@@ -28,11 +30,12 @@ using llvm::Value;
 
 class Counter {
 public:
-    Counter(Analyses& analyses, llvm::Loop& loop, const llvm::DataLayout& layout)
+    Counter(Analyses& analyses, llvm::Loop& loop, const llvm::DataLayout& layout, bool words_go_up)
         : loops_(analyses.loops()),
           evolution_(analyses.evolution()),
           costs_(analyses.get<llvm::TargetIRAnalysis>()),
           loop_(loop),
+          words_go_up_(words_go_up),
           expander_(evolution_, layout, "count") {
         expander_.disableCanonicalMode();
     }
@@ -89,7 +92,8 @@ private:
         const bool byte = evolution_.getUnsignedRangeMax(stays).ule(UINT8_MAX);
         const unsigned bits = byte ? 8 : 16;
         if (counts_down_already(*compare) && bits >= old_bits) return false;
-        if (!byte && compare_pointer(block, *branch, *compare, stays)) return true;
+        const bool goes_up = words_go_up_ && &block == loop_.getLoopLatch();
+        if (!byte && !goes_up && compare_pointer(block, *branch, *compare, stays)) return true;
         make(block, *branch, *compare, *old, stays, bits);
         return true;
     }
@@ -144,10 +148,12 @@ private:
         const llvm::SCEV* start = evolution_.getTruncateOrZeroExtend(stays, type);
         // At the end of the body the counter has been stepped once more.
         if (at_end) start = evolution_.getAddExpr(start, evolution_.getOne(type));
+        const bool up = words_go_up_ && at_end && bits > 8;
+        if (up) start = evolution_.getNegativeSCEV(start);
         Value* first = expander_.expandCodeFor(start, type, before->getTerminator());
         auto* phi = llvm::PHINode::Create(type, 2, "left", loop_.getHeader()->begin());
         llvm::IRBuilder<> builder(latch->getTerminator());
-        Value* next = builder.CreateSub(phi, llvm::ConstantInt::get(type, 1));
+        Value* next = builder.CreateAdd(phi, llvm::ConstantInt::getSigned(type, up ? 1 : -1));
         phi->addIncoming(first, before);
         phi->addIncoming(next, latch);
         finish(branch, compare, at_end ? next : phi, llvm::ConstantInt::get(type, 0));
@@ -157,6 +163,7 @@ private:
     llvm::ScalarEvolution& evolution_;
     llvm::TargetTransformInfo& costs_;
     llvm::Loop& loop_;
+    bool words_go_up_;
     llvm::SCEVExpander expander_;
 };
 
@@ -178,11 +185,43 @@ const llvm::SCEV* cheap_exit_count(llvm::ScalarEvolution& evolution,
     return count;
 }
 
-void count_down(llvm::Function& function) {
+static void count_to_zero(llvm::Function& function, bool words_go_up) {
     Analyses analyses(function);
     analyses.run(llvm::LoopSimplifyPass());
     for (llvm::Loop* loop : analyses.loops().getLoopsInPreorder()) {
-        Counter(analyses, *loop, function.getParent()->getDataLayout()).run();
+        Counter(analyses, *loop, function.getParent()->getDataLayout(), words_go_up).run();
+    }
+}
+
+void count_down(llvm::Function& function) {
+    count_to_zero(function, false);
+}
+
+void count_words_up(llvm::Function& function) {
+    count_to_zero(function, true);
+}
+
+void count_last(llvm::Function& function) {
+    for (llvm::BasicBlock& block : function) {
+        auto* branch = llvm::dyn_cast<llvm::BranchInst>(block.getTerminator());
+        if (branch == nullptr || !branch->isConditional()) continue;
+        auto* compare = llvm::dyn_cast<ICmpInst>(branch->getCondition());
+        if (compare == nullptr || !compare->isEquality() || compare->getParent() != &block)
+            continue;
+        auto* step = llvm::dyn_cast<llvm::BinaryOperator>(compare->getOperand(0));
+        const auto* zero = llvm::dyn_cast<llvm::ConstantInt>(compare->getOperand(1));
+        if (step == nullptr || zero == nullptr || !zero->isZero() || step->getParent() != &block ||
+            step->getOpcode() != llvm::Instruction::Add || !step->getType()->isIntegerTy(16)) {
+            continue;
+        }
+        const auto* one = llvm::dyn_cast<llvm::ConstantInt>(step->getOperand(1));
+        const bool used_here = std::any_of(step->user_begin(), step->user_end(), [&](auto* user) {
+            const auto* at = llvm::cast<llvm::Instruction>(user);
+            return user != compare && !llvm::isa<llvm::PHINode>(at) && at->getParent() == &block;
+        });
+        if (one == nullptr || !one->isOne() || used_here || !compare->hasOneUse()) continue;
+        step->moveBefore(branch);
+        compare->moveBefore(branch);
     }
 }
 

@@ -18,6 +18,11 @@ void step_pointers(llvm::Function& function);
 
 /// Counters that nothing else uses run down to 0, in 8 bits where that is enough.
 void count_down(llvm::Function& function);
+/// The same, but those of 16 bits go up to 0: INX tells it by K.
+void count_words_up(llvm::Function& function);
+
+/// Words that go up to 0 are stepped in front of their branch: another INX would change K.
+void count_last(llvm::Function& function);
 
 /// Integers whose upper bytes are always 0 are marked by `zext(trunc x)`.
 void narrow_values(llvm::Function& function);

@@ -38,13 +38,16 @@ uint64_t bytes_kept_waiting(const Instruction& instruction) {
 
 /// In front of which instruction the value is needed, or nullptr.
 Instruction* place_of_use(Instruction& instruction) {
+    llvm::BasicBlock* home = instruction.getParent();
+    const bool goes_on =
+        std::all_of(instruction.use_begin(), instruction.use_end(), [&](const llvm::Use& use) {
+            const auto* phi = llvm::dyn_cast<llvm::PHINode>(use.getUser());
+            return phi != nullptr && phi->getIncomingBlock(use) == home;
+        });
+    if (goes_on && !instruction.use_empty()) return home->getTerminator();
     if (!instruction.hasOneUse()) return nullptr;
     auto* user = llvm::cast<Instruction>(*instruction.user_begin());
-    const llvm::BasicBlock* home = instruction.getParent();
-    if (auto* phi = llvm::dyn_cast<llvm::PHINode>(user)) {
-        llvm::BasicBlock* from = phi->getIncomingBlock(*instruction.use_begin());
-        return from == home ? from->getTerminator() : nullptr;
-    }
+    if (llvm::isa<llvm::PHINode>(user)) return nullptr;
     return user->getParent() == home ? user : nullptr;
 }
 

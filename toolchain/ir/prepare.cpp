@@ -29,7 +29,7 @@ void check(const llvm::Function& function, const char* behind) {
 
 }  // namespace
 
-void prepare(llvm::Module& module) {
+void prepare(llvm::Module& module, bool undocumented) {
     refuse_unsupported(module);
     llvm::FunctionAnalysisManager functions;
     llvm::PassBuilder builder;
@@ -44,7 +44,7 @@ void prepare(llvm::Module& module) {
         functions.invalidate(function, llvm::PreservedAnalyses::none());
         run("copy_by_value_arguments", copy_by_value_arguments);
         run("step_pointers", step_pointers);
-        run("count_down", count_down);
+        run("count_down", undocumented ? count_words_up : count_down);
         run("find_pages", find_pages);
         run("narrow_values", narrow_values);
         run("expand_intrinsics", expand_intrinsics);
@@ -55,6 +55,7 @@ void prepare(llvm::Module& module) {
         run("expand_selects", expand_selects);
         run("split_conditions", split_conditions);  // those of selects
         run("place_near_use", place_near_use);
+        if (undocumented) run("count_last", count_last);
     }
 }
 

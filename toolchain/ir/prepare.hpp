@@ -24,6 +24,7 @@ void fix_places(llvm::Module& module);
 inline constexpr const char* kFrameAttribute = "i85-frame";  ///< its value: the function
 
 /// Replaces what select() does not know.
-void prepare(llvm::Module& module);
+/// @param undocumented  the code will have JNK: long counts go up to 0, INX tells by K
+void prepare(llvm::Module& module, bool undocumented = false);
 
 }  // namespace toolchain::ir

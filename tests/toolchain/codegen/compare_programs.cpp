@@ -72,6 +72,7 @@ GeneratedProgram generated(const RandomProgram& program, const CompareOptions& o
     lower_calls(lowered);
     GenerateOptions generate_options;
     generate_options.search = options.search;
+    generate_options.undocumented = options.undocumented;
     generate_options.byte_cost = options.byte_cost;
     generate_options.search_budget = options.budget;
     generate_options.homes_by_chance = options.homes_by_chance;
@@ -362,9 +363,10 @@ uint64_t run_small(uint64_t argument, std::size_t argument_size, std::size_t res
     }
     (void)expected.call("f");
     lower_calls(module);
-    for (const bool search : {false, true}) {
+    for (const unsigned kind : {0U, 1U, 2U, 3U}) {
         GenerateOptions options;
-        options.search = search;
+        options.search = kind % 2 != 0;
+        options.undocumented = kind > 1;
         GeneratedProgram actual(module, options);
         for (unsigned i = 0; i < argument_size; ++i) {
             actual.machine.memory.bytes[actual.address("argument") + i] =

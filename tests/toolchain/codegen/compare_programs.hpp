@@ -21,6 +21,7 @@ struct CompareOptions {
     double byte_cost = 1;
     uint64_t budget = 0;           ///< of the search
     uint64_t homes_by_chance = 0;  ///< a seed
+    bool undocumented = false;     ///< instructions too
     bool ask_clobbers = true;      ///< callees' registers are known; else a call changes all
 };
 
@@ -38,8 +39,8 @@ struct CompareOptions {
 using Small = std::function<toolchain::codegen::Bytes(toolchain::codegen::Builder&,
                                                       const toolchain::codegen::Bytes&)>;
 
-/// The machine's result, with and without search for registers. @errors std::runtime_error if these
-/// two or the interpreter do not agree
+/// The machine's result, with and without search for registers, with and without undocumented
+/// instructions. @errors std::runtime_error if these or the interpreter do not agree
 [[nodiscard]] uint64_t run_small(uint64_t argument, std::size_t argument_size,
                                  std::size_t result_size, const Small& body);
 

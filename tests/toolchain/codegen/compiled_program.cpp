@@ -50,7 +50,16 @@ std::vector<NamedGenerator> generators() {
         without.search = false;
         return codegen::generate(module, function, without);
     };
-    return {{"Real", codegen::generate}, {"WithoutSearch", slots_only}, {"Plain", plain_code}};
+    const auto undocumented = [](const codegen::Module& module, const codegen::Function& function,
+                                 const codegen::GenerateOptions& options) {
+        codegen::GenerateOptions with = options;
+        with.undocumented = true;
+        return codegen::generate(module, function, with);
+    };
+    return {{"Real", codegen::generate},
+            {"WithoutSearch", slots_only},
+            {"Undocumented", undocumented},
+            {"Plain", plain_code}};
 }
 
 CompiledProgram::CompiledProgram(codegen::Generator generator, codegen::Module module,
@@ -84,8 +93,7 @@ void CompiledProgram::run(const std::function<host_sim::Interrupt(uint64_t)>& in
     load();
     host_sim::FlatBus bus{machine_.memory};
     host_sim::CpuState& cpu = machine_.cpu;
-    host_sim::Reference<host_sim::FlatBus> processor(cpu, bus,
-                                                     host_sim::InstructionSet::documented);
+    host_sim::Reference<host_sim::FlatBus> processor(cpu, bus, host_sim::InstructionSet::all);
     const uint32_t top = program_.stack.end();
     while (!cpu.halted) {
         const host_sim::Interrupt wanted = interrupt(instructions_);

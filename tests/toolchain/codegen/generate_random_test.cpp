@@ -38,19 +38,27 @@ RandomLimits limits_for(uint64_t seed) {
     return limits;
 }
 
-TEST(GenerateRandom, MachineCodeDoesWhatTheInterpreterDoes) {
+class GenerateRandom : public testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Instructions, GenerateRandom, testing::Bool(), [](const auto& test) {
+    return test.param ? "Undocumented" : "Documented";
+});
+
+TEST_P(GenerateRandom, MachineCodeDoesWhatTheInterpreterDoes) {
     const uint64_t first = from_environment("ROVER_MIR_SEED", 60);
     const uint64_t count = from_environment("ROVER_MIR_COUNT", 150);
     std::size_t functions = 0;
     for (uint64_t seed = first; seed < first + count; ++seed) {
         const RandomProgram program = random_program(seed, limits_for(seed));
         functions += program.module.functions.size();
-        const std::string found = difference(program, options_for(seed));
+        CompareOptions options = options_for(seed);
+        options.undocumented = GetParam();
+        const std::string found = difference(program, options);
         if (found.empty()) continue;
-        const RandomProgram smaller = shrink(program, options_for(seed));
+        const RandomProgram smaller = shrink(program, options);
         ADD_FAILURE() << "seed " << seed << ": " << found
-                      << "\nsmaller: " << difference(smaller, options_for(seed)) << "\n"
-                      << print(smaller.module) << listing(smaller, options_for(seed));
+                      << "\nsmaller: " << difference(smaller, options) << "\n"
+                      << print(smaller.module) << listing(smaller, options);
         if (from_environment("ROVER_MIR_ALL", 0) == 0) return;
     }
     RecordProperty("functions", static_cast<int>(functions));

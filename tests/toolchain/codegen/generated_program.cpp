@@ -120,7 +120,9 @@ constexpr uint16_t kStack = 0xFFE0;
 }  // namespace
 
 GeneratedProgram::GeneratedProgram(const Module& lowered, GenerateOptions options,
-                                   bool ask_clobbers) {
+                                   bool ask_clobbers)
+    : machine(options.undocumented ? host_sim::InstructionSet::all
+                                   : host_sim::InstructionSet::documented) {
     std::map<SymbolId, RegisterSet> clobbers;
     if (ask_clobbers) {
         options.clobbers_of = [&clobbers](SymbolId symbol) {

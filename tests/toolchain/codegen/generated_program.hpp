@@ -31,7 +31,7 @@ public:
     [[nodiscard]] std::string listing() const;
     [[nodiscard]] uint16_t address(const std::string& name) const;
 
-    host_sim::FlatMachine machine{host_sim::InstructionSet::documented};
+    host_sim::FlatMachine machine;
     toolchain::assembly::Program program;
 };
 

@@ -43,6 +43,19 @@ TEST(Peephole, JumpsToReturnsReturn) {
               "RNC; INR B; RET");
 }
 
+TEST(Peephole, ThereIsNoReturnOnK) {
+    EXPECT_EQ(improved({jump(op::kJk, 1), item(kInrB), label(1), item(op::kRet)}),
+              "JK a16; INR B; L:; RET");
+    EXPECT_EQ(improved({jump(op::kJk, 1), item(op::kRet), label(1), item(kInrB), item(op::kRet)}),
+              "JK a16; RET; L:; INR B; RET");
+}
+
+TEST(Peephole, AJumpOnKOverAJumpIsTheOtherOne) {
+    EXPECT_EQ(improved({label(2), item(kInrB), jump(op::kJk, 1), jump(op::kJmp, 2), label(1),
+                        item(op::kRet)}),
+              "L:; INR B; JNK a16; RET");
+}
+
 TEST(Peephole, CodeThatNobodyReachesDisappears) {
     EXPECT_EQ(improved({item(op::kRet), item(kInrB), item(kInrB)}), "RET");
 }

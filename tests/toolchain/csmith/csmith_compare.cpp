@@ -1,5 +1,6 @@
 // csmith_compare.cpp - random C programs: our compiler against avr-gcc on simavr.
-// Usage        csmith_compare --seeds FIRST-LAST [--levels 0,1,2,s] [--jobs N] [--keep DIR]
+// Usage        csmith_compare --seeds FIRST-LAST [--levels 0,1,2,s] [--cpu 8085|8085u] [--jobs N]
+//                             [--keep DIR]
 //              csmith_compare --program FILE.c [--levels ...] [--define NAME=VALUE]
 // Exit         0 nothing wrong, 1 a fault, 2 usage
 // Guide        docs/guides/random-testing.md
@@ -84,6 +85,9 @@ int main(int argc, char** argv) {
     app.add_option("--program", program.source, "a C source instead of seeds")
         ->check(CLI::ExistingFile);
     app.add_option("--levels", options.levels, "of 0,1,2,s; all by default")->delimiter(',');
+    std::string cpu = "8085";
+    app.add_option("--cpu", cpu, "8085, or 8085u: with undocumented instructions")
+        ->check(CLI::IsMember({"8085", "8085u"}));
     app.add_option("--jobs", campaign.jobs, "processes at a time")->check(CLI::Range(1, 256));
     bool kernels = false;
     app.add_flag("--kernels", kernels, "loops over arrays instead of csmith's programs");
@@ -96,6 +100,7 @@ int main(int argc, char** argv) {
     app.add_option("--define,-D", defines, "NAME or NAME=VALUE, for all compilers");
     CLI11_PARSE(app, argc, argv);
     options.keep = keep;
+    options.subject.undocumented = cpu == "8085u";
     if (kernels) options.kind = Generator::kernels;
     if (mir) options.layer = Layer::mir;
     for (const std::string& define : defines) program.options.push_back("-D" + define);

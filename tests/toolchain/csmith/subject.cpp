@@ -39,6 +39,7 @@ toolchain::driver::Request request_for(const Program& program, const SubjectOpti
     request.sources = {{program.source.string()}};
     request.level = level_of(options.level);
     request.search_budget = options.search_budget;
+    request.undocumented = options.undocumented;
     request.rom = kRom;
     request.ram = kRam;
     request.front_end = {"-std=gnu99"};
@@ -62,8 +63,9 @@ std::string run_mir(const toolchain::codegen::Module& module) {
     return fmt::format("checksum {:08X}", machine.variable("rover_checksum", 4));
 }
 
-std::string run_image(const toolchain::assembly::Program& program) {
-    host_sim::FlatMachine machine(host_sim::InstructionSet::documented);
+std::string run_image(const toolchain::assembly::Program& program, bool undocumented) {
+    host_sim::FlatMachine machine(undocumented ? host_sim::InstructionSet::all
+                                               : host_sim::InstructionSet::documented);
     for (std::size_t i = 0; i < program.image.bytes.size(); ++i) {
         // RAM is never clear when power comes on.
         machine.memory.bytes.at(i) = program.image.present.test(i) ? program.image.bytes[i] : 0xA5;
@@ -132,7 +134,7 @@ std::string compile_and_run(const toolchain::driver::Request& request, Layer lay
     }
     toolchain::assembly::Program image = toolchain::driver::compile_program(request).program;
     if (options.meddle_image) options.meddle_image(image);
-    return run_image(image);
+    return run_image(image, options.undocumented);
 }
 
 }  // namespace

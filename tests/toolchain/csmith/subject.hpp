@@ -20,6 +20,7 @@ enum class Layer : uint8_t { image, mir };
 
 struct SubjectOptions {
     std::string level = "s";     ///< "0", "1", "2" or "s"
+    bool undocumented = false;   ///< instructions too: --cpu=8085u
     uint64_t search_budget = 0;  ///< as in driver::Request
     /// Change what is executed; tests put faults in with them.
     std::function<void(toolchain::codegen::Module&)> meddle_mir{};

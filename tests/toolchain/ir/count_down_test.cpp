@@ -15,7 +15,7 @@ using toolchain::ir::count_down;
 
 /// Adds 3 as often as the body runs. @param test  the end of the loop's body
 Passed counting(const std::string& type, const std::string& first, const std::string& step,
-                const std::string& test) {
+                const std::string& test, void (*pass)(llvm::Function&) = count_down) {
     return Passed(fmt::format(R"(
 define i16 @f({0} %n) {{
 entry:
@@ -31,7 +31,7 @@ out:
   ret i16 %t
 }})",
                               type, first, step, test),
-                  count_down);
+                  pass);
 }
 
 TEST(CountDown, ConstantsOfUpTo256FitInAByte) {
@@ -52,6 +52,21 @@ TEST(CountDown, MoreTakesAWord) {
         Interpreter interpreter(passed.mir);
         EXPECT_EQ(interpreter.call("f", {0}), 3 * count & 0xFFFF);
     }
+}
+
+// For INX and JNK: from minus the count to 0. What fits in a byte goes down all the same.
+TEST(CountDown, WordsGoUpIfAskedTo) {
+    const auto up = toolchain::ir::count_words_up;
+    for (const unsigned count : {257U, 1000U, 65535U}) {
+        const Passed passed =
+            counting("i32", "0", "1", fmt::format("icmp ne i32 %next, {}", count), up);
+        EXPECT_EQ(passed.count(fmt::format("i16 [ {}, %entry", static_cast<int16_t>(-count))), 1U)
+            << passed.text;
+        Interpreter interpreter(passed.mir);
+        EXPECT_EQ(interpreter.call("f", {0}), 3 * count & 0xFFFF);
+    }
+    const Passed byte = counting("i16", "0", "1", "icmp ne i16 %next, 200", up);
+    EXPECT_EQ(byte.count("add i8 %left, -1"), 1U) << byte.text;
 }
 
 TEST(CountDown, ArgumentsAsCounts) {

@@ -22,7 +22,6 @@ namespace {
 using namespace toolchain::assembly;
 
 constexpr std::array kFiles = {"multiply", "divide", "shift", "copy", "wide", "call"};
-constexpr std::array kSmallFiles = {"small/multiply", "small/divide"};
 constexpr uint16_t kHalt = 0x0000;  // where routines return to
 constexpr uint16_t kCode = 0x0100;
 constexpr uint16_t kStack = 0xFF00;
@@ -96,21 +95,25 @@ RuntimeMachine::RuntimeMachine() {
         read_blocks(text);
         modules_.push_back(parse(text, {.file = name + ".s85"}));
     }
-    if (kSmall) take_small();
+    if (kSmall || kUndocumented || kTable) take_variant();
     place();
 }
 
-/// The small routines in the place of the fast ones.
-void RuntimeMachine::take_small() {
+/// The routines of a variant in the place of the usual ones.
+void RuntimeMachine::take_variant() {
     const std::vector<Routine> fast = std::exchange(routines_, {});
-    std::vector<Module> small;
-    for (const std::string name : kSmallFiles) {
+    std::vector<std::string> names;
+    if (kSmall) names = {"small/multiply", "small/divide"};
+    if (kUndocumented) names = {"undocumented/multiply"};
+    if (kTable) names = {"table/multiply"};
+    std::vector<Module> variant;
+    for (const std::string& name : names) {
         const std::string text = file_text(name + ".s85");
         read_blocks(text);
-        small.push_back(parse(text, {.file = name + ".s85"}));
+        variant.push_back(parse(text, {.file = name + ".s85"}));
     }
-    replace_sections(modules_, std::move(small));
-    for (Routine& routine : routines_) routine.is_small = true;
+    replace_sections(modules_, std::move(variant));
+    for (Routine& routine : routines_) routine.is_variant = true;
     for (const Routine& routine : fast) {
         const bool replaced =
             std::any_of(routines_.begin(), routines_.end(),
@@ -128,6 +131,7 @@ void RuntimeMachine::place() {
     for (Module& module : placed) {
         for (Section& section : module.sections) {
             section.kind = SectionKind::code;
+            end = (end + section.alignment - 1) / section.alignment * section.alignment;
             section.address = static_cast<uint16_t>(end);
             end += static_cast<uint32_t>(section_size(section));
         }

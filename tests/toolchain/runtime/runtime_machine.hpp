@@ -33,6 +33,17 @@ inline constexpr bool kSmall = true;  ///< the routines of toolchain/runtime/sma
 #else
 inline constexpr bool kSmall = false;
 #endif
+#ifdef ROVER_UNDOCUMENTED_RUNTIME
+inline constexpr bool kUndocumented = true;  ///< the routines of toolchain/runtime/undocumented
+#else
+inline constexpr bool kUndocumented = false;
+#endif
+
+#ifdef ROVER_TABLE_RUNTIME
+inline constexpr bool kTable = true;  ///< the routines of toolchain/runtime/table
+#else
+inline constexpr bool kTable = false;
+#endif
 
 /// DE:HL = value.
 [[nodiscard]] Registers with_dehl(uint32_t value);
@@ -48,8 +59,8 @@ struct Routine {
     std::vector<std::string> calls;
     unsigned best_t = 0;  ///< T-states, RET included and CALL not
     unsigned worst_t = 0;
-    bool is_small = false;  ///< of toolchain/runtime/small
-    bool is_stated = true;  ///< false: it calls a small routine, and is not one itself
+    bool is_variant = false;  ///< of toolchain/runtime/small, undocumented or table
+    bool is_stated = true;    ///< false: it calls such a routine, and is not one itself
 };
 
 /// All routines in the memory of one machine.
@@ -75,11 +86,12 @@ public:
     [[nodiscard]] host_sim::FlatMemory& memory() { return machine_.memory; }
 
 private:
-    void take_small();
+    void take_variant();
     void read_blocks(std::string_view text);
     void place();
 
-    host_sim::FlatMachine machine_{host_sim::InstructionSet::documented};
+    host_sim::FlatMachine machine_{kUndocumented ? host_sim::InstructionSet::all
+                                                 : host_sim::InstructionSet::documented};
     std::vector<Routine> routines_;
     std::vector<toolchain::assembly::Module> modules_;
     std::map<std::string, uint16_t> symbols_;

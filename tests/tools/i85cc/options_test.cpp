@@ -81,8 +81,10 @@ TEST(Options, PassOnWhatIsForClang) {
 }
 
 TEST(Options, Switches) {
-    const Options options = parse_options({"--cpu=8085u", "--allow-recursion", "--no-constructors",
-                                           "--report", "--time", "-v", "-o", "a.hex", "a.c"});
+    const Options options =
+        parse_options({"--cpu=8085u", "--allow-recursion", "--no-constructors", "--table-multiply",
+                       "--report", "--time", "-v", "-o", "a.hex", "a.c"});
+    EXPECT_TRUE(options.request.table_multiply);
     EXPECT_TRUE(options.request.undocumented);
     EXPECT_TRUE(options.request.allow_recursion);
     EXPECT_FALSE(options.request.allow_constructors);
@@ -112,6 +114,7 @@ TEST(Options, HelpNamesEveryOption) {
                                "--cpu=8085u",
                                "--allow-recursion",
                                "--no-constructors",
+                               "--table-multiply",
                                "--separate",
                                "--keep",
                                "--rom",
