@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 
+#include "firmware/loader/layout.hpp"
 #include "tools/budget/budget_error.hpp"
 
 namespace rover_bounds {
@@ -16,7 +17,7 @@ using rover_budget::BudgetError;
 
 constexpr std::array<std::pair<const char*, uint16_t>, 4> kVectors = {
     {{"TRAP", 0x24}, {"RST 7.5", 0x3C}, {"RST 6.5", 0x34}, {"RST 5.5", 0x2C}}};
-constexpr uint16_t kReset = 0;
+constexpr const char* kStartUp = "__reset";  // of the application: the loader is no part of it
 constexpr const char* kWaitFunction = "*::rover_wait(*";
 
 /// The last number of a note "KEY ...", or nothing.
@@ -35,7 +36,9 @@ FlowProgram::FlowProgram(const host_sim::Image& image, const host_sim::Symbols& 
                          const rover_budget::ImageMap& map, FlowTable table)
     : source_{&image, &symbols, {}}, table_(std::move(table)) {
     take_notes(map);
-    std::vector<uint16_t> roots = {kReset};
+    const host_sim::Symbol* start = symbols.find(kStartUp);
+    std::vector<uint16_t> roots = {start == nullptr ? uint16_t{0} : start->address};
+    if (roots[0] >= rover::loader::kApplicationFirst) first_ = rover::loader::kApplicationFirst;
     for (const auto& [name, vector] : kVectors) {
         const host_sim::Symbol* function = symbols.function_at(vector);
         if (function == nullptr || function->address != vector) continue;

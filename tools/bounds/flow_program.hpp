@@ -50,6 +50,8 @@ public:
     [[nodiscard]] uint16_t wait() const { return wait_; }
     [[nodiscard]] uint16_t main() const { return main_; }
     [[nodiscard]] const std::vector<Handler>& handlers() const { return handlers_; }
+    /// Where the program begins: behind the loader, if there is one.
+    [[nodiscard]] uint16_t first() const { return first_; }
 
 private:
     void take_notes(const rover_budget::ImageMap& map);
@@ -62,6 +64,7 @@ private:
     FlowTable table_;
     CodeGraph graph_;
     std::map<uint16_t, uint32_t> noted_;  ///< turns by address
+    uint16_t first_ = 0;
     std::map<uint16_t, std::vector<BoundedLoop>> loops_;
     Procedure step_;
     std::vector<BoundedLoop> step_loops_;

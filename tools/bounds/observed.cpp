@@ -88,8 +88,13 @@ void Observer::observe(const StepRecord& step, const host_sim::CpuState& after) 
         if (!activations_.empty()) watch_loops(step.pc);
     }
     stack_->observe(step);
-    const uint32_t used = stack_end_ - after.sp;
-    if (after.sp <= stack_end_ && used > observed_.stack_bytes && used <= kDeepestBelievable) {
+    if (step.pc >= program_.first()) watch_stack(after.sp);
+}
+
+/// The loader in front of the program has a stack of its own, in the same place.
+void Observer::watch_stack(uint16_t sp) {
+    const uint32_t used = stack_end_ - sp;
+    if (sp <= stack_end_ && used > observed_.stack_bytes && used <= kDeepestBelievable) {
         observed_.stack_bytes = used;
         if (used > bounds_.stack.with_interrupts) {
             violated(fmt::format("stack: {} bytes, bound {}", used, bounds_.stack.with_interrupts));

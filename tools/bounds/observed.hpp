@@ -72,6 +72,7 @@ private:
     void frame_begins(const host_sim::Frame& frame, bool called) override;
     void frame_ends(const host_sim::Frame& frame) override;
     void time_passes(const host_sim::Frame& frame, uint64_t t) override;
+    void watch_stack(uint16_t sp);
     void watch_loops(uint16_t pc);
     void count_turn(WatchedLoop& loop, const Activation& activation);
     void begin_step();
