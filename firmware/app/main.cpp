@@ -13,6 +13,7 @@
 #include "firmware/boot/reset_cause.hpp"
 #include "firmware/boot/rom_check.hpp"
 #include "firmware/boot/stack_guard.hpp"
+#include "firmware/config/eeprom_layout.hpp"
 #include "firmware/config/memory_layout.hpp"
 #include "firmware/executive/acquisition.hpp"
 #include "firmware/executive/checkpoint.hpp"
@@ -23,7 +24,6 @@
 #include "firmware/link/byte_ring.hpp"
 #include "firmware/link/calibration_frame.hpp"
 #include "firmware/link/frames.hpp"
-#include "firmware/loader/layout.hpp"
 #include "hal/board/rb85_parts.hpp"
 #include "hal/target/i8085.hpp"
 
@@ -196,8 +196,9 @@ I85_INTERRUPT(I85_TRAP) void on_trap() {
     const auto check_at = static_cast<uint16_t>(reinterpret_cast<uintptr_t>(at) + 2);
     constexpr uint16_t kFirst = loader::kApplicationFirst;
     const auto* const rom = reinterpret_cast<const volatile uint8_t*>(kFirst);
-    if (size < kFirst || !rom_is_intact(rom, sub_wrap(size, kFirst), sub_wrap(check_at, kFirst),
-                                        [] { feed_watchdog(); })) {
+    if (size < kFirst ||
+        !rom_is_intact(
+            rom, sub_wrap(size, kFirst), sub_wrap(check_at, kFirst), [] { feed_watchdog(); })) {
         set_fault(kFaultRom);
     }
 }

@@ -1,11 +1,11 @@
 // boot_record.hpp - is there an image that may be started?
-// Depends on   loader/layout.hpp, loader/crc16_small.hpp.
+// Depends on   config/eeprom_layout.hpp, loader/crc16_small.hpp.
 // Normative    docs/spec/loader.md     Tests  tests/firmware/loader/boot_record_test.cpp
 #pragma once
 
+#include "firmware/config/eeprom_layout.hpp"
 #include "firmware/link/crc16.hpp"
 #include "firmware/loader/crc16_small.hpp"
-#include "firmware/loader/layout.hpp"
 
 namespace rover::loader {
 

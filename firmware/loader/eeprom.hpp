@@ -1,13 +1,13 @@
 // eeprom.hpp - writes a page of the 28C256: unlock, load, poll, read back.
 // Source       Atmel AT28C256 data sheet: Page Write, DATA Polling, Software Data Protection.
-// Depends on   loader/layout.hpp.
+// Depends on   config/eeprom_layout.hpp.
 // Must run     from RAM, with interrupts disabled: the part cannot be read while it writes, and a
 //              fetch in between would end the load.
 // Tests        tests/firmware/loader/eeprom_test.cpp, tests/system/loader
 #pragma once
 
+#include "firmware/config/eeprom_layout.hpp"
 #include "firmware/core/arith.hpp"
-#include "firmware/loader/layout.hpp"
 
 namespace rover::loader {
 

@@ -177,7 +177,8 @@ void answer_hello() {
     hello.bootable = 0;
     if (image_is_bootable()) {
         hello.bootable = 1;
-        const uint16_t identity = word_at(cell(kRecordPage + __builtin_offsetof(BootRecord, identity_at)));
+        const uint16_t identity =
+            word_at(cell(kRecordPage + __builtin_offsetof(BootRecord, identity_at)));
         const volatile uint8_t* from = cell(add_wrap(identity, uint16_t{sizeof Identity::magic}));
         for (uint8_t& byte : hello.identity) byte = *from++;
     }
@@ -258,12 +259,13 @@ void close() {
     const uint16_t field = add_wrap(identity, uint16_t{__builtin_offsetof(Identity, image_crc)});
     const uint16_t crc = image_crc(record.image_size, field);
     if (crc != record.image_crc) return report_at(Result::wrong_crc, crc);
-    record.crc = crc16_small(kCrc16Start, reinterpret_cast<const uint8_t*>(&record),
-                             kBootRecordChecked);
+    record.crc =
+        crc16_small(kCrc16Start, reinterpret_cast<const uint8_t*>(&record), kBootRecordChecked);
     if (program_record(&record)) is_open = false;
 }
 
-/// Into the image by a reset: the watchdog gets no more edges, and every part is as RESET leaves it.
+/// Into the image by a reset: the watchdog gets no more edges, and every part is as RESET leaves
+/// it.
 void wait_for_reset() {
     for (;;) hal::I8085::halt();
 }

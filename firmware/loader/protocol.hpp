@@ -1,10 +1,10 @@
 // protocol.hpp - frames between a host and the loader: types, results, payloads.
-// Depends on   link/frames.hpp (their form), loader/layout.hpp.
+// Depends on   link/frames.hpp (their form), config/eeprom_layout.hpp.
 // Normative    docs/spec/loader.md
 #pragma once
 
+#include "firmware/config/eeprom_layout.hpp"
 #include "firmware/link/frames.hpp"
-#include "firmware/loader/layout.hpp"
 
 namespace rover::loader {
 
@@ -39,7 +39,7 @@ enum class Result : uint8_t {
     differs = 6,        ///< `address` reads `found`, not `expected`
     no_identity = 7,    ///< no identity block at `address`
     wrong_image_size = 8,
-    wrong_crc = 9,     ///< of the image; `address` is what was computed
+    wrong_crc = 9,      ///< of the image; `address` is what was computed
     not_bootable = 10,  ///< `start` without a valid boot record
 };
 
@@ -60,8 +60,8 @@ struct Hello {
     uint8_t application_end[2];  ///< the record page
     uint8_t page_size;
     Entry entry;
-    uint8_t is_open;    ///< 1: pages can be written
-    uint8_t bootable;   ///< 1: boot record valid, and the rest is that of the image
+    uint8_t is_open;       ///< 1: pages can be written
+    uint8_t bootable;      ///< 1: boot record valid, and the rest is that of the image
     uint8_t identity[20];  ///< as in the link's identity frame; zeros if not bootable
 };
 static_assert(sizeof(Hello) == 30);

@@ -28,9 +28,8 @@ struct Rb85Parts {
     using Adc = Ad574a<Bus, rb85::kAdc, rb85::kPpiA + rb85::kPpiPortB, rb85::kAdcBusyBit>;
     using AnalogInputs = hal::AnalogInputs<Adc, PpiA>;
     using Motors = MotorLatch<Bus, rb85::kMotorDrive>;
-    using Range =
-        RangeModule<PpiB, rb85::kRangeAckBit, rb85::kRangeStrobeBit, rb85::kRangeSelectBit,
-                    rb85::kTrapGateBit>;
+    using Range = RangeModule<PpiB, rb85::kRangeAckBit, rb85::kRangeStrobeBit,
+                              rb85::kRangeSelectBit, rb85::kTrapGateBit>;
     using Watchdog = SodWatchdog<Bus>;
     using Presence = PresenceBuffer<Bus, rb85::kPresence>;
 

@@ -13,7 +13,8 @@ namespace rb85 = hal::rb85;
 namespace {
 
 // The one-shot of the watchdog stretches the button's pulse as well.
-constexpr uint64_t kResetPulseT = chips::SodWatchdog::kPulseNs * (rb85::kClockHz / 1000) / 1'000'000;
+constexpr uint64_t kResetPulseT =
+    chips::SodWatchdog::kPulseNs * (rb85::kClockHz / 1000) / 1'000'000;
 static_assert(chips::SodWatchdog::kPulseNs >
                   chips::At28c256::kLoadTimeNs + chips::At28c256::kWriteCycleNs,
               "the program is fetched when the EEPROM can be read again");

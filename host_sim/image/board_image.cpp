@@ -26,8 +26,7 @@ void put_all(Image& to, const Image& from, int offset) {
 
 Image loader_image(const Image& start, const Image& program) {
     check_range(start, {0, layout::kStartLast}, "the loader's first part");
-    check_range(program,
-                {layout::kProgramFirst, layout::kProgramFirst + layout::kProgramSize - 1},
+    check_range(program, {layout::kProgramFirst, layout::kProgramFirst + layout::kProgramSize - 1},
                 "the loader's second part");
     Image loader;
     loader.file = program.file;

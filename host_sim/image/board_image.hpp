@@ -1,12 +1,12 @@
 // board_image.hpp - the whole content of the board's EEPROM: loader, application, boot record.
-// Depends on   host_sim/image/identity.hpp, firmware/loader/layout.hpp.
+// Depends on   host_sim/image/identity.hpp, firmware/config/eeprom_layout.hpp.
 // Normative    docs/spec/loader.md
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "firmware/loader/layout.hpp"
+#include "firmware/config/eeprom_layout.hpp"
 #include "host_sim/image/identity.hpp"
 
 namespace host_sim {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "firmware/loader/layout.hpp"
+#include "firmware/config/eeprom_layout.hpp"
 #include "host_sim/image/board_image.hpp"
 #include "host_sim/image/checksum.hpp"
 
@@ -154,14 +154,15 @@ ImageIdentity read_identity(const Image& image) {
     for (std::size_t at = identity.image_size; at <= last; ++at) {
         if (image.bytes[at] == kErasedByte) continue;
         refuse(image,
-               fmt::format("says it ends at {:04X}H, but there is a byte at {:04X}H", identity.image_size,
-                           at),
+               fmt::format("says it ends at {:04X}H, but there is a byte at {:04X}H",
+                           identity.image_size, at),
                "it was changed after it was stamped; build it anew");
     }
     if (last + 1 < identity.image_size) {
-        refuse(image,
-               fmt::format("says it ends at {:04X}H, but does at {:04X}H", identity.image_size, last),
-               "the file is cut off; copy or build it anew");
+        refuse(
+            image,
+            fmt::format("says it ends at {:04X}H, but does at {:04X}H", identity.image_size, last),
+            "the file is cut off; copy or build it anew");
     }
     const uint16_t crc = crc_of(image, identity.address, identity.image_size);
     if (crc != identity.image_crc) {

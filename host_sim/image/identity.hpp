@@ -1,5 +1,6 @@
 // identity.hpp - the identity block of a program image: found, checked, filled in after linking.
-// Depends on   host_sim/image/image.hpp, firmware/loader/layout.hpp: the application's part of the
+// Depends on   host_sim/image/image.hpp, firmware/config/eeprom_layout.hpp: the application's part
+// of the
 //              EEPROM is what is checked; the loader beside it is not part of an image's identity.
 // Normative    docs/design/image.md, "The identity block". The firmware declares it with zeros as
 //              `rover_identity`; what the linker cannot know is stamped in.

@@ -52,8 +52,8 @@ Module vector_module(const std::map<uint16_t, std::string>& vectors, const LinkO
     if (!options.forward_to) return module;
     for (const uint16_t address : kInterruptLines) {
         const uint32_t target = uint32_t{*options.forward_to} + address;
-        module.sections.push_back(vector_section(
-            address, LabelKind::interrupt_entry, Operand{.offset = static_cast<int32_t>(target)}));
+        module.sections.push_back(vector_section(address, LabelKind::interrupt_entry,
+                                                 Operand{.offset = static_cast<int32_t>(target)}));
     }
     return module;
 }

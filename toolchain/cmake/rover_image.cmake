@@ -27,8 +27,8 @@ function(rover_need_compiler)
   endif()
 endfunction()
 
-# The loader, in its two parts, which stands in front of every image. Addresses: layout.hpp in
-# firmware/loader, which a test compares with what is linked.
+# The loader, in its two parts, which stands in front of every image. Addresses: eeprom_layout.hpp in
+# firmware/config, which a test compares with what is linked.
 set(ROVER_LOADER_DIRECTORY ${PROJECT_BINARY_DIR}/firmware/loader)
 function(rover_loader)
   rover_need_compiler()

@@ -52,8 +52,8 @@ struct Request {
     double byte_cost = 1;            ///< T-states per execution that a byte of code is worth
     assembly::AddressRange rom = assembly::LinkOptions{}.rom;
     assembly::AddressRange ram = assembly::LinkOptions{}.ram;
-    uint16_t vector_base = 0;              ///< LinkOptions: where the vectors stand
-    std::optional<uint16_t> forward_to{};  ///< LinkOptions: the base of the program behind
+    uint16_t vector_base = 0;               ///< LinkOptions: where the vectors stand
+    std::optional<uint16_t> forward_to{};   ///< LinkOptions: the base of the program behind
     std::optional<uint32_t> stack_bytes{};  ///< nothing: the worst depth, see below
     bool verbose = false;                   ///< tells the commands that are run
     unsigned jobs = 2;                      ///< front ends at a time

@@ -7,7 +7,7 @@
 #include <array>
 #include <charconv>
 
-#include "firmware/loader/layout.hpp"
+#include "firmware/config/eeprom_layout.hpp"
 #include "tools/budget/budget_error.hpp"
 
 namespace rover_bounds {

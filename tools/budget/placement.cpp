@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "firmware/loader/layout.hpp"
+#include "firmware/config/eeprom_layout.hpp"
 
 namespace rover_budget {
 namespace {

@@ -204,8 +204,9 @@ void add_link_options(CLI::App& command, LinkFlash& link) {
                     "board: file with the content of the simulated board's EEPROM; made if it is "
                     "not there, with the loader alone")
         ->type_name("FILE.bin");
-    command.add_flag("--verify", link.verify_only,
-                     "serial, board: write nothing; compare the board's EEPROM with the image")
+    command
+        .add_flag("--verify", link.verify_only,
+                  "serial, board: write nothing; compare the board's EEPROM with the image")
         ->excludes("--dry-run");
     command.add_flag("--all", link.write_all,
                      "serial, board: write every page, also those that are right already");
@@ -241,14 +242,16 @@ void add_options(CLI::App& command, Options& options) {
 void add_flash_command(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<Options>();
     CLI::App& command = *app.add_subcommand(
-        "flash", "Bring an image into a board, over its serial line or by an EPROM programmer "
-                 "(docs/guides/flashing.md)");
+        "flash",
+        "Bring an image into a board, over its serial line or by an EPROM programmer "
+        "(docs/guides/flashing.md)");
     add_options(command, *options);
     command.footer(
         "A transfer that breaks leaves a board whose loader answers: run the same command again,\n"
         "it goes on where it stopped.\n"
         "Exit code 1: what was written or read back is not the image (first wrong address, count,\n"
-        "likely cause), or the image does not answer. 3: the image, the port or the board refused.\n"
+        "likely cause), or the image does not answer. 3: the image, the port or the board "
+        "refused.\n"
         "Examples:\n"
         "  rover85 flash --backend serial --port /dev/ttyUSB0\n"
         "  rover85 flash --backend serial --port /dev/ttyUSB0 --verify\n"

@@ -10,10 +10,10 @@
 #include <memory>
 #include <vector>
 
+#include "host_sim/bind/flasher.hpp"
+#include "host_sim/bind/port_line.hpp"
 #include "host_sim/image/eeprom.hpp"
-#include "host_sim/link/flasher.hpp"
 #include "host_sim/link/live_board.hpp"
-#include "host_sim/link/port_line.hpp"
 #include "tools/rover85/command_errors.hpp"
 #include "tools/rover85/progress_bar.hpp"
 
@@ -110,8 +110,9 @@ int start(LoaderClient& client, const host_sim::ImageIdentity& identity) {
         say("after", host_sim::describe(*running) + ", running");
         return running->image_crc == identity.image_crc ? kExitPass : kExitDifference;
     }
-    say("FAILED", "the image was written and verified, but does not answer; press RESET, and look "
-                  "at its telemetry with `rover85 monitor`");
+    say("FAILED",
+        "the image was written and verified, but does not answer; press RESET, and look "
+        "at its telemetry with `rover85 monitor`");
     return kExitDifference;
 }
 
@@ -131,8 +132,8 @@ int write(LoaderClient& client, const host_sim::Image& image, const LinkFlash& o
     const auto result = host_sim::flash_over_link(client, image, how);
     bars.end();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-    std::string text = fmt::format("{} of {} pages in {:.1f} s", result.pages_written,
-                                   result.pages, took.count());
+    std::string text =
+        fmt::format("{} of {} pages in {:.1f} s", result.pages_written, result.pages, took.count());
     if (result.was_bootable_already) text = "nothing: the board has this image already";
     if (result.resumed != 0) text += fmt::format(", resumed {} times", result.resumed);
     if (client.repeated() != 0) text += fmt::format(", {} requests repeated", client.repeated());
@@ -208,9 +209,10 @@ std::string only_serial_port(const fs::path& devices) {
             devices.string()));
     }
     std::ranges::sort(ports);
-    throw host_sim::SerialError(fmt::format("{}: there are several serial ports; choose one: "
-                                            "--port {}",
-                                            devices.string(), fmt::join(ports, ", ")));
+    throw host_sim::SerialError(
+        fmt::format("{}: there are several serial ports; choose one: "
+                    "--port {}",
+                    devices.string(), fmt::join(ports, ", ")));
 }
 
 int flash_serial(const host_sim::Image& image, const LinkFlash& options) {

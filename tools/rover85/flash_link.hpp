@@ -15,8 +15,8 @@ struct LinkFlash {
     bool verify_only = false;
     bool write_all = false;
     bool any_vehicle = false;
-    bool stay = false;           ///< leaves the board in the loader
-    unsigned patience_s = 30;    ///< waits so long for the loader
+    bool stay = false;         ///< leaves the board in the loader
+    unsigned patience_s = 30;  ///< waits so long for the loader
 };
 
 /// @return  exit code: kExitPass, kExitDifference

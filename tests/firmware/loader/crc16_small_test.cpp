@@ -9,7 +9,7 @@ namespace {
 
 /// CRC-16/CCITT-FALSE bit by bit: x^16 + x^12 + x^5 + 1.
 uint16_t by_the_polynomial(uint16_t crc, uint8_t byte) {
-    unsigned rest = crc ^ unsigned{byte} << 8;
+    unsigned rest = crc ^ unsigned { byte } << 8;
     for (int bit = 0; bit < 8; ++bit) rest = (rest & 0x8000) != 0 ? rest << 1 ^ 0x1021 : rest << 1;
     return static_cast<uint16_t>(rest);
 }

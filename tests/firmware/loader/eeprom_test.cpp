@@ -1,4 +1,5 @@
-// eeprom_test.cpp - the page writer: its accesses, and what becomes of them in the model of the part.
+// eeprom_test.cpp - the page writer: its accesses, and what becomes of them in the model of the
+// part.
 #include "firmware/loader/eeprom.hpp"
 
 #include <gtest/gtest.h>

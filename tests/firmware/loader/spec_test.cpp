@@ -65,9 +65,8 @@ TEST(LoaderPage, HasEveryRequest) {
 
 TEST(LoaderPage, HasEveryResult) {
     const std::vector<std::string> names = {
-        "done",         "unknown_type", "wrong_size",       "wrong_address", "not_open",
-        "no_end",       "differs",      "no_identity",      "wrong_image_size",
-        "wrong_crc",    "not_bootable"};
+        "done",    "unknown_type", "wrong_size",       "wrong_address", "not_open",    "no_end",
+        "differs", "no_identity",  "wrong_image_size", "wrong_crc",     "not_bootable"};
     EXPECT_EQ(static_cast<int>(Result::done), 0);
     EXPECT_EQ(static_cast<int>(Result::wrong_address), 3);
     EXPECT_EQ(static_cast<int>(Result::no_end), 5);
@@ -89,10 +88,11 @@ TEST(LoaderPage, HasEveryResult) {
 TEST(LoaderPage, HasTheHello) {
     const auto rows = table("### hello");
     const std::vector<std::size_t> offsets = {
-        offsetof(Hello, protocol_version), offsetof(Hello, loader_version),
+        offsetof(Hello, protocol_version),  offsetof(Hello, loader_version),
         offsetof(Hello, application_first), offsetof(Hello, application_end),
-        offsetof(Hello, page_size), offsetof(Hello, entry), offsetof(Hello, is_open),
-        offsetof(Hello, bootable), offsetof(Hello, identity)};
+        offsetof(Hello, page_size),         offsetof(Hello, entry),
+        offsetof(Hello, is_open),           offsetof(Hello, bootable),
+        offsetof(Hello, identity)};
     ASSERT_EQ(rows.size(), offsets.size());
     for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i][0], std::to_string(offsets[i]));
 }

@@ -214,8 +214,8 @@ TEST(BoardImage, LoaderAndRecordLieWhereThePageSays) {
     const std::vector<uint8_t> record(image.bytes.begin() + 0x7FC0, image.bytes.begin() + 0x7FCC);
     const auto low = [](unsigned word) { return static_cast<uint8_t>(word & 0xFF); };
     const unsigned crc = identity.image_crc;
-    std::vector<uint8_t> expected = {'R', '8', '5', 'B', 0x41, 0x0C, low(crc), low(crc >> 8),
-                                     0x10, 0x0C};
+    std::vector<uint8_t> expected = {'R',  '8',      '5',           'B',  0x41,
+                                     0x0C, low(crc), low(crc >> 8), 0x10, 0x0C};
     const unsigned check = host_sim::crc16_ccitt_false(expected);
     expected.push_back(low(check));
     expected.push_back(low(check >> 8));
@@ -234,20 +234,23 @@ TEST(BoardImage, PartsOutsideOfTheirPlacesAreRefused) {
     Image start, program;
     start.put(0x0200, 0);
     program.put(0xE000, 0);
-    EXPECT_NE(error_of([&] { (void)host_sim::loader_image(start, program); })
-                  .find("0200H is outside of the loader's first part"),
+    EXPECT_NE(error_of([&] {
+                  (void)host_sim::loader_image(start, program);
+              }).find("0200H is outside of the loader's first part"),
               std::string::npos);
     start = Image();
     start.put(0, 0);
     program.put(0xEA00, 0);
-    EXPECT_NE(error_of([&] { (void)host_sim::loader_image(start, program); })
-                  .find("EA00H is outside of the loader's second part"),
+    EXPECT_NE(error_of([&] {
+                  (void)host_sim::loader_image(start, program);
+              }).find("EA00H is outside of the loader's second part"),
               std::string::npos);
     Image image = stamped();
     const ImageIdentity identity = host_sim::read_identity(image);
     image.put(0x0BFF, 0);
-    EXPECT_NE(error_of([&] { host_sim::complete_for_board(image, identity, loader()); })
-                  .find("0BFFH is outside of the application's part"),
+    EXPECT_NE(error_of([&] {
+                  host_sim::complete_for_board(image, identity, loader());
+              }).find("0BFFH is outside of the application's part"),
               std::string::npos);
 }
 

@@ -1,6 +1,6 @@
 // broken_transfers_test.cpp - a thousand transfers that break: at any byte, by a reset or a loss of
-// power at any T-state, by noise on the line. Whatever happened, the loader answers, what is bootable
-// is whole, and the same command brings the image in.
+// power at any T-state, by noise on the line. Whatever happened, the loader answers, what is
+// bootable is whole, and the same command brings the image in.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-#include "firmware/loader/layout.hpp"
+#include "firmware/config/eeprom_layout.hpp"
 #include "tests/system/loader/loader_bench.hpp"
 
 namespace {
@@ -104,8 +104,7 @@ public:
     void run() {
         const Image before = made_up_image(10, 1);
         const Image after = made_up_image(12, 2);
-        bench_.live.board().program(
-            std::span(before.bytes).first(hal::rb85::kEepromLast + 1));
+        bench_.live.board().program(std::span(before.bytes).first(hal::rb85::kEepromLast + 1));
         if (random_() % 4 == 0) bench_.live.board().program(std::array<uint8_t, 64>{}, 0x7FC0);
         const auto kind = static_cast<Break>(random_() % kBreakNames.size());
         if (kind == Break::reset || kind == Break::power) plan_break(kind);
@@ -130,8 +129,7 @@ public:
 
 private:
     std::string describe(Break kind) const {
-        return "seed " + std::to_string(seed_) + ", " +
-               kBreakNames[static_cast<std::size_t>(kind)];
+        return "seed " + std::to_string(seed_) + ", " + kBreakNames[static_cast<std::size_t>(kind)];
     }
 
     /// Within the transfer, or before or behind it.
@@ -163,9 +161,9 @@ private:
         LoaderClient client(bench_.line(), kPatience);
         client.reach(milliseconds(60'000));
         flash_over_link(client, image, {.lost = [&client] {
-            client.reach(milliseconds(20'000));
-            return true;
-        }});
+                            client.reach(milliseconds(20'000));
+                            return true;
+                        }});
     }
 
     void check_invariants(const Image& before, const Image& after) {
@@ -202,10 +200,10 @@ TEST(BrokenTransfers, AThousandLeaveABoardThatAnswersAndCanBeFlashed) {
         std::printf("%s: %u\n", kBreakNames[i], tally.trials[i]);
         EXPECT_GT(tally.trials[i], kTrials / 8);
     }
-    std::printf("left with a bootable image: %u; resumed by the host itself: %u; %llu samples of "
-                "the motors\n",
-                tally.left_bootable, tally.resumed,
-                static_cast<unsigned long long>(tally.samples));
+    std::printf(
+        "left with a bootable image: %u; resumed by the host itself: %u; %llu samples of "
+        "the motors\n",
+        tally.left_bootable, tally.resumed, static_cast<unsigned long long>(tally.samples));
     EXPECT_GT(tally.left_bootable, kTrials / 20);
     EXPECT_LT(tally.left_bootable, kTrials);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "tests/system/loader/loader_bench.hpp"
 
@@ -67,6 +68,51 @@ TEST(FlashOverLink, AFlyingImageIsTakenIntoTheLoaderAndReplaced) {
     bench.live.stop();
     EXPECT_TRUE(bench.holds(other));
     EXPECT_EQ(bench.powered, 0u);
+}
+
+TEST(FlashOverLink, AWrongByteIsFoundAndMended) {
+    LoaderBench bench(true);
+    bench.live.board().program(std::array<uint8_t, 1>{0x00}, 0x2345);
+    const bool was_zero = built_image().bytes[0x2345] == 0;
+    bench.live.start();
+    auto client = bench.client();
+    client.reach(kSoon);
+    const auto report = host_sim::verify_over_link(client, built_image());
+    ASSERT_EQ(report.has_value(), !was_zero);
+    EXPECT_EQ(report->first, 0x2345);
+    EXPECT_EQ(report->found, 0x00);
+    EXPECT_EQ(report->expected, built_image().bytes[0x2345]);
+    EXPECT_EQ(report->count, 1u);
+    EXPECT_EQ(flash_over_link(client, built_image(), {}).pages_written, 1u);
+    EXPECT_FALSE(host_sim::verify_over_link(client, built_image()));
+}
+
+// TRAP cannot be masked, and its vector lies in the part that is being written: the gate is closed.
+TEST(FlashOverLink, BumperAndUndervoltageDoNotDisturbIt) {
+    using Kind = host_sim::Stimulus::Kind;
+    LoaderBench bench;
+    for (uint64_t t = 1; t < 20 * loader_test::kSecondT; t += 7001) {
+        const bool bumper = t % 2 == 0;
+        bench.live.board().schedule(
+            {t, bumper ? Kind::bumper : Kind::undervoltage, 0, t / 7001 % 4 < 2 ? 1 : 0});
+    }
+    bench.live.start();
+    auto client = bench.client();
+    client.reach(kSoon);
+    flash_over_link(client, built_image(), {});
+    EXPECT_EQ(client.repeated(), 0u);
+    bench.live.stop();
+    EXPECT_TRUE(bench.holds(built_image()));
+    EXPECT_EQ(bench.powered, 0u);
+}
+
+TEST(FlashOverLink, AnImageForAnotherVehicleIsRefusedUnlessMeant) {
+    LoaderBench bench(true);
+    bench.live.start();
+    auto client = bench.client();
+    client.reach(kSoon);
+    EXPECT_THROW((void)flash_over_link(client, other_image(), {}), host_sim::FlashError);
+    EXPECT_TRUE(client.hello().bootable) << "nothing was touched";
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "firmware/loader/layout.hpp"
+#include "firmware/config/eeprom_layout.hpp"
 
 namespace loader_test {
 namespace {

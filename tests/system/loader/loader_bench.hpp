@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "host_sim/bind/flasher.hpp"
 #include "host_sim/board/board.hpp"
 #include "host_sim/image/board_image.hpp"
-#include "host_sim/link/flasher.hpp"
 #include "host_sim/link/live_board.hpp"
 #include "host_sim/link/serial_port.hpp"
 

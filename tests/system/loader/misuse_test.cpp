@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "firmware/loader/layout.hpp"
+#include "firmware/config/eeprom_layout.hpp"
 #include "tests/system/loader/loader_bench.hpp"
 
 namespace {
@@ -163,9 +163,9 @@ TEST(BadImages, TheLoaderIsReachedBehindAReset) {
         client.reach(kSoon);
         const Image good = program({0x00, 0x76});
         host_sim::flash_over_link(client, good, {.lost = [&client] {
-            client.reach(kSoon);  // RESET came in mid-transfer
-            return true;
-        }});
+                                      client.reach(kSoon);  // RESET came in mid-transfer
+                                      return true;
+                                  }});
         bench.live.stop();
         EXPECT_TRUE(bench.holds(good)) << i;
         EXPECT_TRUE(bench.loader_is_untouched()) << i;

@@ -1,8 +1,8 @@
 // session_test.cpp - runs of a real board under the debugger, exact to the T-state.
 #include "tools/debug/session.hpp"
 
-#include "tests/tools/debug/bench.hpp"
 #include "tests/support/trap_gate.hpp"
+#include "tests/tools/debug/bench.hpp"
 
 namespace debug_console {
 namespace {

@@ -1,7 +1,7 @@
 // stimulus_commands_test.cpp - the outside world by hand, seen in the board's state.
+#include "tests/support/trap_gate.hpp"
 #include "tests/tools/debug/bench.hpp"
 #include "tools/debug/commands.hpp"
-#include "tests/support/trap_gate.hpp"
 
 namespace debug_console {
 namespace {

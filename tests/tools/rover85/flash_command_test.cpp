@@ -10,8 +10,8 @@
 #include "host_sim/image/board_image.hpp"
 #include "host_sim/image/checksum.hpp"
 #include "host_sim/image/identity.hpp"
-#include "tests/host_sim/image/identity_image.hpp"
 #include "host_sim/link/serial_port.hpp"
+#include "tests/host_sim/image/identity_image.hpp"
 #include "tests/tools/rover85/command_line.hpp"
 #include "tools/rover85/flash_link.hpp"
 

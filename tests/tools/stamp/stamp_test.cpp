@@ -77,9 +77,8 @@ TEST(RoverStamp, AddsTheLoaderItsSymbolsAndTheBootRecord) {
     system_test::write_bytes(folder / "start.sym", "0000 0003 F main\n0000 0001 L - @ a.cpp:1\n");
     system_test::write_bytes(folder / "program.sym", "E000 0001 F main\n");
     std::vector<std::string> arguments = usual(folder);
-    for (const std::string& argument :
-         {std::string("--loader-start"), folder / "start.hex", std::string("--loader-program"),
-          folder / "program.hex"}) {
+    for (const std::string& argument : {std::string("--loader-start"), folder / "start.hex",
+                                        std::string("--loader-program"), folder / "program.hex"}) {
         arguments.push_back(argument);
     }
     const Outcome outcome = stamp(folder, arguments);

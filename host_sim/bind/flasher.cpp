@@ -1,5 +1,5 @@
 // flasher.cpp - see flasher.hpp.
-#include "host_sim/link/flasher.hpp"
+#include "host_sim/bind/flasher.hpp"
 
 #include <fmt/format.h>
 
@@ -71,14 +71,15 @@ std::vector<std::size_t> different_pages(LoaderClient& client, const Pages& page
             report.address));
     }
     if (report.result == Result::differs) {
-        throw FlashError(fmt::format(
-            "{:04X}H reads {:02X}H instead of {:02X}H behind {} writes; {}", report.address,
-            report.found, report.expected, kWritesOfAPage,
-            likely_cause(std::span(&report.expected, 1), std::span(&report.found, 1))));
+        throw FlashError(
+            fmt::format("{:04X}H reads {:02X}H instead of {:02X}H behind {} writes; {}",
+                        report.address, report.found, report.expected, kWritesOfAPage,
+                        likely_cause(std::span(&report.expected, 1), std::span(&report.found, 1))));
     }
-    throw FlashError(fmt::format("the loader refuses page {:04X}H (result {}); use the rover85 of "
-                                 "the loader's version",
-                                 address, static_cast<int>(report.result)));
+    throw FlashError(
+        fmt::format("the loader refuses page {:04X}H (result {}); use the rover85 of "
+                    "the loader's version",
+                    address, static_cast<int>(report.result)));
 }
 
 void write_page(LoaderClient& client, uint16_t address, std::span<const uint8_t> page) {
@@ -113,9 +114,10 @@ void close(LoaderClient& client, const Pages& pages) {
 void check_vehicle(const LoaderHello& hello, const Pages& pages) {
     const std::string& vehicle = pages.identity().vehicle;
     if (!hello.identity || hello.identity->vehicle == vehicle) return;
-    throw FlashError(fmt::format("the board has an image for the vehicle {}, this one is for {}; "
-                                 "add --any-vehicle if it is meant",
-                                 hello.identity->vehicle, vehicle));
+    throw FlashError(
+        fmt::format("the board has an image for the vehicle {}, this one is for {}; "
+                    "add --any-vehicle if it is meant",
+                    hello.identity->vehicle, vehicle));
 }
 
 void check_layout(const LoaderHello& hello) {
@@ -127,9 +129,8 @@ void check_layout(const LoaderHello& hello) {
     throw FlashError(fmt::format(
         "the loader speaks version {} and has its application at {:04X}H-{:04X}H in pages of {}; "
         "known are version {}, {:04X}H-{:04X}H, {}: use the rover85 of the loader's version",
-        hello.protocol_version, hello.application_first, hello.application_end - 1,
-        hello.page_size, rover::loader::kProtocolVersion, kApplicationFirst, kRecordPage - 1,
-        kPageSize));
+        hello.protocol_version, hello.application_first, hello.application_end - 1, hello.page_size,
+        rover::loader::kProtocolVersion, kApplicationFirst, kRecordPage - 1, kPageSize));
 }
 
 bool is_the_image(const LoaderHello& hello, const Pages& pages) {
@@ -232,8 +233,7 @@ std::optional<VerifyReport> verify_over_link(LoaderClient& client, const Image& 
     return report;
 }
 
-FlashResult flash_over_link(LoaderClient& client, const Image& image,
-                            const FlashOptions& options) {
+FlashResult flash_over_link(LoaderClient& client, const Image& image, const FlashOptions& options) {
     const Pages pages(image);
     FlashResult result;
     result.pages = pages.count();

@@ -1,5 +1,5 @@
 // loader_client.cpp - see loader_client.hpp.
-#include "host_sim/link/loader_client.hpp"
+#include "host_sim/bind/loader_client.hpp"
 
 #include <fmt/format.h>
 
@@ -23,8 +23,7 @@ std::array<uint8_t, 2> word_bytes(uint16_t word) {
 }
 
 Milliseconds left_until(Clock::time_point end) {
-    return std::max(Milliseconds(0),
-                    std::chrono::duration_cast<Milliseconds>(end - Clock::now()));
+    return std::max(Milliseconds(0), std::chrono::duration_cast<Milliseconds>(end - Clock::now()));
 }
 
 std::optional<LoaderHello> parse_hello(const DownlinkFrame& frame) {
@@ -128,17 +127,19 @@ DownlinkFrame LoaderClient::ask(Type type, std::span<const uint8_t> payload) {
         line_.write(uplink_frame(number, payload));
         if (auto frame = wait_for(number | kAnswerBit, options_.answer)) return *std::move(frame);
     }
-    throw LoaderError("the loader no longer answers; press RESET on the board and run the same "
-                      "command again: it goes on where it stopped");
+    throw LoaderError(
+        "the loader no longer answers; press RESET on the board and run the same "
+        "command again: it goes on where it stopped");
 }
 
 LoaderReport LoaderClient::ask_report(Type type, std::span<const uint8_t> payload) {
     const DownlinkFrame frame = ask(type, payload);
     const auto bytes = frame.payload();
     if (bytes.size() != kReportSize) {
-        throw LoaderError(fmt::format("the loader answers with {} bytes instead of {}; is this "
-                                      "the rover85 of the same version?",
-                                      bytes.size(), kReportSize));
+        throw LoaderError(
+            fmt::format("the loader answers with {} bytes instead of {}; is this "
+                        "the rover85 of the same version?",
+                        bytes.size(), kReportSize));
     }
     return {static_cast<rover::loader::Result>(bytes[0]), frame.word(1), bytes[3], bytes[4]};
 }

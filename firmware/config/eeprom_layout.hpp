@@ -1,7 +1,6 @@
-// layout.hpp - who owns which part of the EEPROM, and the record that makes an image bootable.
-// Depends on   hal/board/rb85.hpp.
-// Use          loader, application and the host's image files read the same numbers.
-// Normative    docs/spec/loader.md, docs/spec/memory-map.md
+// eeprom_layout.hpp - who owns which part of the EEPROM, and the record that makes an image
+// bootable. Depends on   hal/board/rb85.hpp. Use          loader, application and the host's image
+// files read the same numbers. Normative    docs/spec/loader.md, docs/spec/memory-map.md
 #pragma once
 
 #include "hal/board/rb85.hpp"
@@ -13,7 +12,7 @@ inline constexpr uint16_t kPageSize = 64;  ///< what the 28C256 writes in one cy
 
 /// Never written by the loader: start and program below.
 inline constexpr uint16_t kLoaderLast = 0x0BFF;
-inline constexpr uint16_t kStartLast = 0x01FF;         ///< runs from ROM
+inline constexpr uint16_t kStartLast = 0x01FF;           ///< runs from ROM
 inline constexpr uint16_t kStoredProgramFirst = 0x0200;  ///< copied to RAM and run there
 
 /// The image: vectors as at 0000H, then everything else.

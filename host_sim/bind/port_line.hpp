@@ -2,7 +2,7 @@
 // Depends on   host_sim/link/serial_port.hpp, loader_client.hpp.
 #pragma once
 
-#include "host_sim/link/loader_client.hpp"
+#include "host_sim/bind/loader_client.hpp"
 #include "host_sim/link/serial_port.hpp"
 
 namespace host_sim {

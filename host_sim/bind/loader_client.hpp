@@ -84,7 +84,8 @@ public:
     /// @errors  LoaderError: nobody within `timeout`
     LoaderHello reach(Milliseconds timeout, const std::function<void()>& waiting = {});
 
-    // -- Requests. @errors LoaderError: no answer --------------------------------------------------
+    // -- Requests. @errors LoaderError: no answer
+    // --------------------------------------------------
     LoaderHello hello();
     LoaderReport open();
     LoaderReport write(uint16_t address, std::span<const uint8_t> page);

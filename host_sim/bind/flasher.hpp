@@ -1,6 +1,6 @@
 // flasher.hpp - brings an image into a board through its loader: only pages that differ, verified,
 // bootable at the end; goes on by itself behind a reset of the board.
-// Depends on   host_sim/link/loader_client.hpp, host_sim/image/board_image.hpp.
+// Depends on   host_sim/bind/loader_client.hpp, host_sim/image/board_image.hpp.
 // Design note  docs/design/loader.md
 #pragma once
 
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/bind/loader_client.hpp"
 #include "host_sim/image/board_image.hpp"
-#include "host_sim/link/loader_client.hpp"
 
 namespace host_sim {
 
@@ -34,9 +34,9 @@ struct FlashOptions {
 struct FlashResult {
     std::optional<RemoteIdentity> before;
     std::optional<RemoteIdentity> after;
-    std::size_t pages = 0;           ///< of the image
+    std::size_t pages = 0;  ///< of the image
     std::size_t pages_written = 0;
-    unsigned resumed = 0;            ///< rounds behind the first
+    unsigned resumed = 0;               ///< rounds behind the first
     bool was_bootable_already = false;  ///< nothing had to be done
 };
 
