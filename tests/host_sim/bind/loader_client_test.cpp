@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 
 #include "host_sim/bind/port_line.hpp"
@@ -19,8 +20,12 @@ using Bytes = std::vector<uint8_t>;
 
 /// A downlink frame by docs/spec/link.md.
 Bytes answer(uint8_t type, const Bytes& payload) {
-    Bytes bytes = {0xA5, 0x5A, type, static_cast<uint8_t>(payload.size())};
-    bytes.insert(bytes.end(), payload.begin(), payload.end());
+    Bytes bytes;
+    for (const std::size_t byte :
+         {std::size_t{0xA5}, std::size_t{0x5A}, std::size_t{type}, payload.size()}) {
+        bytes.push_back(static_cast<uint8_t>(byte));
+    }
+    for (const uint8_t byte : payload) bytes.push_back(byte);
     const uint16_t crc = host_sim::link_crc(std::span(bytes).subspan(2));
     bytes.push_back(static_cast<uint8_t>(crc & 0xFF));
     bytes.push_back(static_cast<uint8_t>(crc >> 8));
@@ -54,10 +59,11 @@ struct Script {
 constexpr LoaderClient::Options kQuick{.answer = milliseconds(5), .tries = 3};
 
 Bytes hello_payload() {
-    Bytes payload = {1, 1, 0x00, 0x0C, 0xC0, 0x7F, 64, 2, 0, 1};
-    const Bytes identity = {1, 0, 1, 0, 0x78, 0x56, 0x34, 0x12, 0xEA, 0x38, 0x0C, 0xA4};
-    payload.insert(payload.end(), identity.begin(), identity.end());
-    for (const char letter : std::string("Rocky3.2")) payload.push_back(uint8_t(letter));
+    Bytes payload = {1, 1, 0x00, 0x0C, 0xC0, 0x7F, 64,   2,    0,    1,  // up to the identity
+                     1, 0, 1,    0,    0x78, 0x56, 0x34, 0x12, 0xEA, 0x38, 0x0C, 0xA4};
+    for (const char letter : std::string("Rocky3.2")) {
+        payload.push_back(static_cast<uint8_t>(letter));
+    }
     return payload;
 }
 
@@ -121,8 +127,7 @@ TEST(LoaderClient, AsksAgainAndThenGivesUp) {
 TEST(LoaderClient, OtherFramesAreNoAnswer) {
     Script script;
     Bytes both = answer(0x01, Bytes(44));
-    const Bytes wanted = answer(0x91, {0, 0, 0, 0, 0});
-    both.insert(both.end(), wanted.begin(), wanted.end());
+    for (const uint8_t byte : answer(0x91, Bytes(5))) both.push_back(byte);
     script.answers = {both};
     EXPECT_EQ(LoaderClient(script.line(), kQuick).open().result, Result::done);
 }
