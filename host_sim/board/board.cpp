@@ -176,7 +176,19 @@ uint64_t Board::wake_t(uint64_t until_t) const {
 
 RunEnd Board::step(StepRecord& record, uint64_t until_t) {
     bus_.advance(state.cpu.t);
-    reset_if_pending();
+    const uint64_t begin_t = state.cpu.t;
+    if (reset_if_pending() && state.cpu.t != begin_t) {  // held as long as the button's pulse
+        record = {StepRecord::Kind::halt,
+                  state.cpu.pc,
+                  state.cpu.sp,
+                  state.cpu.pc,
+                  state.cpu.sp,
+                  begin_t,
+                  state.cpu.t,
+                  0,
+                  {}};
+        return RunEnd::time_limit;
+    }
     const bool held = state.watchdog.pulse();
     const Interrupt interrupt = held ? Interrupt::none : pending_interrupt(state.cpu);
     const uint64_t violations = state.violation_count;

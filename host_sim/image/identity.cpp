@@ -159,10 +159,10 @@ ImageIdentity read_identity(const Image& image) {
                "it was changed after it was stamped; build it anew");
     }
     if (last + 1 < identity.image_size) {
-        refuse(
-            image,
-            fmt::format("says it ends at {:04X}H, but does at {:04X}H", identity.image_size, last),
-            "the file is cut off; copy or build it anew");
+        refuse(image,
+               fmt::format("says it ends at {:04X}H, but does at {:04X}H", identity.image_size,
+                           last + 1),
+               "the file is cut off; copy or build it anew");
     }
     const uint16_t crc = crc_of(image, identity.address, identity.image_size);
     if (crc != identity.image_crc) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "firmware/config/eeprom_layout.hpp"
 #include "hal/board/rb85.hpp"
 #include "host_sim/image/identity.hpp"
 #include "host_sim/log/log_io.hpp"
@@ -82,7 +83,8 @@ Figures measure(const MeasureOptions& options, const std::function<void(double)>
 
     StepProfile profile({&symbols, &figures.modules, &figures.placement.module_of,
                          address_of(symbols, "rover_step_count", options.image),
-                         map.region("stack").first + map.region("stack").size});
+                         map.region("stack").first + map.region("stack").size,
+                         rover::loader::kApplicationFirst});
     host_sim::BoardTarget target(image, symbols, options.slow_step);
     target.observe([&profile](const host_sim::StepRecord& step, const host_sim::CpuState& after) {
         profile.observe(step, after);

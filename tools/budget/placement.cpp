@@ -56,8 +56,11 @@ Placement place(const ImageMap& map, const host_sim::Symbols& symbols, const Mod
     }
     // The loader in front of the image has symbols, and its bytes are its own.
     for (const host_sim::Symbol& symbol : symbols.all()) {
-        const bool is_loader = symbol.address < rover::loader::kApplicationFirst;
-        if (!is_loader || symbol.kind == host_sim::SymbolKind::label) continue;
+        const bool is_loader = symbol.name.starts_with("loader start: ");
+        if (!is_loader || symbol.address >= rover::loader::kApplicationFirst ||
+            symbol.kind == host_sim::SymbolKind::label) {
+            continue;
+        }
         const auto module = static_cast<uint16_t>(table.of(symbol.name));
         std::fill_n(placement.module_of.begin() + symbol.address, symbol.size, module);
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "firmware/config/eeprom_layout.hpp"
 #include "hal/board/rb85.hpp"
 #include "host_sim/image/identity.hpp"
 #include "tools/budget/budget_error.hpp"
@@ -62,8 +63,8 @@ StepProfile::Program ProfiledTarget::program() const {
                           "give an image of this rover with its .sym file beside it");
     }
     const MapRegion& stack = map_.region("stack");
-    return {&symbols_, &table_.modules(), &placement_.module_of, count->address,
-            stack.first + stack.size};
+    return {&symbols_,      &table_.modules(),        &placement_.module_of,
+            count->address, stack.first + stack.size, rover::loader::kApplicationFirst};
 }
 
 void ProfiledTarget::begin(const hal::Calibration& calibration) {

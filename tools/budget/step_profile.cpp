@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "firmware/config/eeprom_layout.hpp"
-
 namespace rover_budget {
 namespace {
 
@@ -101,7 +99,7 @@ void StepProfile::observe(const StepRecord& step, const CpuState& after) {
     stack_->observe(step);
     accept(step, after);
     watch_masks(after);
-    if (step.pc >= rover::loader::kApplicationFirst) watch_stack(after);
+    if (step.pc >= program_.first) watch_stack(after);
     watch_step_count(step);
 }
 

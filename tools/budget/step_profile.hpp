@@ -69,6 +69,7 @@ public:
         const std::vector<uint16_t>* module_of = nullptr;  ///< by address
         uint16_t step_count_address = 0;  ///< of the u16 that the image counts its steps with
         uint32_t stack_end = 0;           ///< where SP starts
+        uint16_t first = 0;               ///< where it begins: behind a loader
     };
     /// Called at the end of every step that counts. @param main_t, interrupt_t  of that step
     std::function<void(uint64_t main_t, uint64_t interrupt_t)> step_ended;

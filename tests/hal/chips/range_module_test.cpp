@@ -41,9 +41,9 @@ TEST(RangeModuleAccesses, AFrameIsNineteenHandshakes) {
     script_example(bus);
     RangeFrame frame;
     EXPECT_EQ(Recorded::Range::read(frame), RangeStatus::ok);
-    std::string expected = "26=20 <26 <24";
+    std::string expected = "26=60 <26 <24";
     for (unsigned i = 1; i < 19; ++i) expected += i % 2 == 1 ? " 27=09 <26 <24" : " 27=08 <26 <24";
-    EXPECT_EQ(bus.accesses(), expected + " 26=00");
+    EXPECT_EQ(bus.accesses(), expected + " 26=40");
     expect_example(frame);
 }
 
@@ -64,9 +64,9 @@ TEST(RangeModuleAccesses, SilenceIsAbsent) {
     bus.in(0x26, {0x2F});
     RangeFrame frame;
     EXPECT_EQ(Recorded::Range::read(frame), RangeStatus::absent);
-    std::string expected = "26=20";
+    std::string expected = "26=60";
     for (unsigned i = 0; i < Recorded::Range::kPollsMax; ++i) expected += " <26";
-    EXPECT_EQ(bus.accesses(), expected + " 26=00");
+    EXPECT_EQ(bus.accesses(), expected + " 26=40");
 }
 
 TEST(RangeModuleAccesses, EveryDamageOfOneByteIsRefused) {
@@ -76,7 +76,7 @@ TEST(RangeModuleAccesses, EveryDamageOfOneByteIsRefused) {
         RangeFrame frame;
         EXPECT_EQ(Recorded::Range::read(frame),
                   wrong == 0x63 ? RangeStatus::ok : RangeStatus::checksum);
-        EXPECT_TRUE(bus.accesses().ends_with(" 26=00"));
+        EXPECT_TRUE(bus.accesses().ends_with(" 26=40"));
     }
 }
 

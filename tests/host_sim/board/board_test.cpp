@@ -163,7 +163,9 @@ TEST(Board, ResetButtonStartsAnew) {
     Board board;
     load(board, "LXI H,8000H\n INR M\n EI\n HLT");
     board.schedule({5000, Stimulus::Kind::reset_button, 0, 0});
-    board.run(6000);
+    board.run(5000 + kWatchdogPulseT - 10);
+    EXPECT_EQ(board.state.memory.bytes[0x8000], 1) << "held as long as by the watchdog";
+    board.run(6000 + kWatchdogPulseT);
     EXPECT_EQ(board.state.memory.bytes[0x8000], 2);
     EXPECT_EQ(board.state.reset_count, 2U);
 }

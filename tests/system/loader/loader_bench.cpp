@@ -53,11 +53,6 @@ Image other_image(const std::string& vehicle) {
     return other;
 }
 
-std::vector<uint8_t> expected_application(const Image& image) {
-    return {image.bytes.begin() + layout::kApplicationFirst,
-            image.bytes.begin() + hal::rb85::kEepromLast + 1};
-}
-
 LoaderBench::LoaderBench(bool application) {
     const std::size_t end = application ? hal::rb85::kEepromLast : layout::kLoaderLast;
     live.board().program(std::span(built_image().bytes).first(end + 1));
@@ -95,9 +90,12 @@ host_sim::ByteLine LoaderBench::line() {
 }
 
 bool LoaderBench::holds(const Image& image) {
-    const auto expected = expected_application(image);
-    const uint8_t* found = live.board().state.eeprom.data() + layout::kApplicationFirst;
-    return std::equal(expected.begin(), expected.end(), found);
+    const auto identity = host_sim::read_identity(image);
+    const auto pages = host_sim::application_pages(image, identity);
+    const auto record = host_sim::boot_record(identity);
+    const uint8_t* const content = live.board().state.eeprom.data();
+    return std::equal(pages.begin(), pages.end(), content + layout::kApplicationFirst) &&
+           std::equal(record.begin(), record.end(), content + layout::kRecordPage);
 }
 
 bool LoaderBench::loader_is_untouched() {

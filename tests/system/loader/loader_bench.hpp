@@ -19,9 +19,6 @@ inline constexpr uint64_t kSecondT = 3'072'000;
 /// Another one that is as good: a byte of its vehicle's name differs, stamped anew.
 [[nodiscard]] host_sim::Image other_image(const std::string& vehicle = "Rocky3.3");
 
-/// What the board's EEPROM is to hold from the application on, with its boot record.
-[[nodiscard]] std::vector<uint8_t> expected_application(const host_sim::Image& image);
-
 class LoaderBench {
 public:
     /// @param application  false: the loader alone, as a programmer has left it
@@ -36,7 +33,9 @@ public:
         return {line(), options};
     }
 
-    /// Is the application there, byte for byte, with its record? @pre stopped
+    /// Is the application there, byte for byte, with its record? What lies behind it does not
+    /// count.
+    /// @pre stopped
     [[nodiscard]] bool holds(const host_sim::Image& image);
     /// Is the loader's part as it was? @pre stopped
     [[nodiscard]] bool loader_is_untouched();

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "host_sim/board/board.hpp"
+#include "tests/support/trap_gate.hpp"
 
 namespace {
 
@@ -139,6 +140,7 @@ TEST(StepProfile, TheDeepestStackThatWasSeen) {
 // third round's work: the instruction that runs then ends first.
 TEST(StepProfile, AnInterruptIsNobodysStepTime) {
     Profiled program;
+    test_support::open_trap_gate(program.board.state);
     program.board.schedule({200, host_sim::Stimulus::Kind::bumper, 0, 1});
     program.run(kFirstEndT + 4 * kRoundT + 61);
     const ProfileFigures& figures = program.figures();

@@ -35,7 +35,7 @@ TEST(Receiver, ReadsEveryKindOfFrame) {
     const auto identity = feed(receiver, monitor_test::identity());
     ASSERT_TRUE(identity && std::holds_alternative<host_sim::ImageIdentity>(*identity));
     EXPECT_EQ(host_sim::describe(std::get<host_sim::ImageIdentity>(*identity)),
-              "rover85 1.2.3 sources 89abcdef vehicle Rocky3.2, 4660 bytes, CRC-16 BEEFH");
+              "rover85 1.2.3 sources 89abcdef vehicle Rocky3.2, 1588 bytes, CRC-16 BEEFH");
     const auto answer = feed(receiver, monitor_test::status());
     ASSERT_TRUE(answer && std::holds_alternative<rover::BoardStatus>(*answer));
     const auto& status = std::get<rover::BoardStatus>(*answer);
