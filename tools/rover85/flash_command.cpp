@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/bind/flasher.hpp"
 #include "host_sim/image/board_image.hpp"
 #include "host_sim/image/checksum.hpp"
 #include "host_sim/image/eeprom.hpp"
@@ -88,6 +89,18 @@ std::string byte_text(std::optional<uint8_t> byte) {
     return byte ? fmt::format("{:02X}H", *byte) : "nothing";
 }
 
+/// What the wrong bytes tell; bytes that are missing tell nothing.
+std::string cause_of(std::span<const uint8_t> expected, std::span<const uint8_t> found) {
+    std::vector<uint8_t> wanted, read;
+    for (std::size_t i = 0; i < std::min(expected.size(), found.size()); ++i) {
+        if (expected[i] == found[i]) continue;
+        wanted.push_back(expected[i]);
+        read.push_back(found[i]);
+    }
+    if (read.empty()) return "the file is not of the part's size";
+    return host_sim::likely_cause(wanted, read);
+}
+
 /// @return  kExitPass or kExitDifference, with what is wrong
 int report_comparison(const std::string& name, std::span<const uint8_t> expected,
                       std::span<const uint8_t> found) {
@@ -97,10 +110,10 @@ int report_comparison(const std::string& name, std::span<const uint8_t> expected
         return kExitPass;
     }
     std::cout << fmt::format(
-        "DIFFERS   {}: first wrong address {:04X}H: {} instead of {}; {} of {} "
-        "bytes are wrong\n",
+        "DIFFERS   {}: first wrong address {:04X}H: {} instead of {}; {} of {} bytes are wrong; "
+        "likely cause: {}\n",
         name, mismatch->first, byte_text(mismatch->found), byte_text(mismatch->expected),
-        mismatch->count, expected.size());
+        mismatch->count, expected.size(), cause_of(expected, found));
     return kExitDifference;
 }
 
@@ -209,7 +222,7 @@ void add_link_options(CLI::App& command, LinkFlash& link) {
                   "serial, board: write nothing; compare the board's EEPROM with the image")
         ->excludes("--dry-run");
     command.add_flag("--all", link.write_all,
-                     "serial, board: write every page, also those that are right already");
+                     "serial, board: send every page, also those that are right already");
     command.add_flag("--any-vehicle", link.any_vehicle,
                      "serial, board: accept an image for another vehicle than the board's");
     command.add_flag("--stay", link.stay, "serial, board: leave the board in the loader");
