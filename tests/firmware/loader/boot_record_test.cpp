@@ -10,10 +10,8 @@ namespace {
 using rover::loader::record_is_whole;
 using Record = std::array<uint8_t, rover::loader::kBootRecordSize>;
 
-/// "R85B", an image up to 38EAH with CRC 1234H and its identity at 3784H. The check by hand: bit by
-/// bit from the polynomial.
-Record good() {
-    Record record = {'R', '8', '5', 'B', 0xEA, 0x38, 0x34, 0x12, 0x84, 0x37, 0, 0};
+/// Puts the check in: bit by bit from the polynomial.
+Record with_check(Record record) {
     unsigned crc = 0xFFFF;
     for (std::size_t i = 0; i < 10; ++i) {
         crc ^= unsigned{record[i]} << 8;
@@ -24,6 +22,11 @@ Record good() {
     record[10] = static_cast<uint8_t>(crc & 0xFF);
     record[11] = static_cast<uint8_t>(crc >> 8 & 0xFF);
     return record;
+}
+
+/// "R85B", an image up to 38EAH with CRC 1234H and its identity at 3784H.
+Record good() {
+    return with_check({'R', '8', '5', 'B', 0xEA, 0x38, 0x34, 0x12, 0x84, 0x37, 0, 0});
 }
 
 TEST(BootRecord, AGoodOneIsWhole) {
@@ -54,15 +57,7 @@ TEST(BootRecord, AnErasedPageIsNone) {
 TEST(BootRecord, OtherBytesWithARightCheckAreNone) {
     Record record = good();
     record[0] = 'S';
-    unsigned crc = 0xFFFF;
-    for (std::size_t i = 0; i < 10; ++i) {
-        crc ^= unsigned{record[i]} << 8;
-        for (int bit = 0; bit < 8; ++bit) {
-            crc = (crc & 0x8000) != 0 ? crc << 1 ^ 0x1021 : crc << 1;
-        }
-    }
-    record[10] = static_cast<uint8_t>(crc & 0xFF);
-    record[11] = static_cast<uint8_t>(crc >> 8 & 0xFF);
+    record = with_check(record);
     EXPECT_FALSE(record_is_whole(record.data()));
 }
 
