@@ -121,11 +121,15 @@ LoaderHello LoaderClient::reach(Milliseconds timeout, const std::function<void()
 }
 
 DownlinkFrame LoaderClient::ask(Type type, std::span<const uint8_t> payload) {
+    return ask(type, payload, options_.answer);
+}
+
+DownlinkFrame LoaderClient::ask(Type type, std::span<const uint8_t> payload, Milliseconds timeout) {
     const auto number = static_cast<uint8_t>(type);
     for (unsigned attempt = 0; attempt < options_.tries; ++attempt) {
         if (attempt != 0) ++repeated_;
         line_.write(uplink_frame(number, payload));
-        if (auto frame = wait_for(number | kAnswerBit, options_.answer)) return *std::move(frame);
+        if (auto frame = wait_for(number | kAnswerBit, timeout)) return *std::move(frame);
     }
     throw LoaderError(
         "the loader no longer answers; press RESET on the board and run the same "
@@ -133,7 +137,10 @@ DownlinkFrame LoaderClient::ask(Type type, std::span<const uint8_t> payload) {
 }
 
 LoaderReport LoaderClient::ask_report(Type type, std::span<const uint8_t> payload) {
-    const DownlinkFrame frame = ask(type, payload);
+    return report_of(ask(type, payload));
+}
+
+LoaderReport LoaderClient::report_of(const DownlinkFrame& frame) {
     const auto bytes = frame.payload();
     if (bytes.size() != kReportSize) {
         throw LoaderError(
@@ -195,7 +202,7 @@ std::vector<uint8_t> LoaderClient::read(uint16_t address, uint8_t count) {
 }
 
 LoaderReport LoaderClient::close(uint16_t identity_at) {
-    return ask_report(Type::close, word_bytes(identity_at));
+    return report_of(ask(Type::close, word_bytes(identity_at), options_.close));
 }
 
 LoaderReport LoaderClient::start() {

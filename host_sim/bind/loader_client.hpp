@@ -69,8 +69,9 @@ class LoaderClient {
 public:
     using Milliseconds = std::chrono::milliseconds;
     struct Options {
-        Milliseconds answer{1500};  ///< for one answer; the check of a whole image takes a second
+        Milliseconds answer{1500};  ///< for one answer
         unsigned tries = 3;         ///< of each request
+        Milliseconds close{6000};   ///< for that of close, which looks at the whole image
     };
     explicit LoaderClient(ByteLine line) : LoaderClient(std::move(line), Options{}) {}
     LoaderClient(ByteLine line, const Options& options);
@@ -102,7 +103,9 @@ private:
     using Type = rover::loader::Request;
     [[nodiscard]] std::optional<DownlinkFrame> wait_for(uint8_t kind, Milliseconds timeout);
     DownlinkFrame ask(Type type, std::span<const uint8_t> payload = {});
+    DownlinkFrame ask(Type type, std::span<const uint8_t> payload, Milliseconds timeout);
     LoaderReport ask_report(Type type, std::span<const uint8_t> payload = {});
+    static LoaderReport report_of(const DownlinkFrame& frame);
     std::optional<LoaderHello> try_hello(Milliseconds timeout);
 
     ByteLine line_;

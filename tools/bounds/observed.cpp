@@ -5,27 +5,14 @@
 
 #include <algorithm>
 
+#include "host_sim/trace/execution_trace.hpp"
+
 namespace rover_bounds {
 namespace {
 
 using host_sim::StepRecord;
 
 constexpr std::size_t kViolationsMax = 50;
-
-const char* handler_name(StepRecord::Kind kind) {
-    switch (kind) {
-        case StepRecord::Kind::trap:
-            return "TRAP";
-        case StepRecord::Kind::rst75:
-            return "RST 7.5";
-        case StepRecord::Kind::rst65:
-            return "RST 6.5";
-        case StepRecord::Kind::rst55:
-            return "RST 5.5";
-        default:
-            return "INTR";
-    }
-}
 
 }  // namespace
 
@@ -167,7 +154,7 @@ void Observer::frame_begins(const host_sim::Frame& frame, bool called) {
 void Observer::frame_ends(const host_sim::Frame& frame) {
     activations_.pop_back();
     if (frame.interrupt) {
-        const std::string name = handler_name(frame.source);
+        const std::string name(host_sim::interrupt_name(frame.source));
         end_handler(name);
         return;
     }

@@ -56,7 +56,8 @@ struct Script {
     }
 };
 
-constexpr LoaderClient::Options kQuick{.answer = milliseconds(5), .tries = 3};
+constexpr LoaderClient::Options kQuick{
+    .answer = milliseconds(5), .tries = 3, .close = milliseconds(5)};
 
 Bytes hello_payload() {
     Bytes payload = {1, 1, 0x00, 0x0C, 0xC0, 0x7F, 64,   2,    0,    1,  // up to the identity

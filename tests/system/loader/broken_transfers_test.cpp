@@ -141,7 +141,8 @@ private:
         });
     }
 
-    static constexpr LoaderClient::Options kPatience{.answer = milliseconds(400), .tries = 2};
+    static constexpr LoaderClient::Options kPatience{
+        .answer = milliseconds(400), .tries = 2, .close = milliseconds(400)};
 
     /// As far as it gets.
     void flash(const ByteLine& line, const Image& image) {

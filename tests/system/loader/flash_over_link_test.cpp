@@ -106,6 +106,27 @@ TEST(FlashOverLink, BumperAndUndervoltageDoNotDisturbIt) {
     EXPECT_EQ(bench.powered, 0u);
 }
 
+TEST(FlashOverLink, TheLargestImageIsClosedAtTheFirstRequest) {
+    host_sim::Image image;
+    image.file = "largest";
+    for (unsigned at = 0x0C00; at < 0x7FC0; ++at) {
+        image.put(static_cast<uint16_t>(at), static_cast<uint8_t>(at * 7 + at / 251));
+    }
+    const auto& built = built_image();
+    const uint16_t block = read_identity(built).address;
+    for (uint16_t at = block; at < block + 28; ++at) image.put(at, built.bytes[at]);
+    host_sim::complete_for_board(image, host_sim::stamp_identity(image, {1, 2, 3}, 4), {});
+    LoaderBench bench;
+    bench.live.start();
+    auto client = bench.client();
+    client.reach(kSoon);
+    EXPECT_EQ(flash_over_link(client, image, {}).pages, 463u);
+    EXPECT_EQ(client.repeated(), 0u);
+    bench.live.stop();
+    EXPECT_TRUE(bench.holds(image));
+    EXPECT_TRUE(bench.loader_is_untouched());
+}
+
 TEST(FlashOverLink, AnImageForAnotherVehicleIsRefusedUnlessMeant) {
     LoaderBench bench(true);
     bench.live.start();
