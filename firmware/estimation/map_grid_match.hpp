@@ -125,20 +125,22 @@ constexpr U16 mul_nibble(U16 word, U8 nibble) {
     const U8 vertex_q3 = square_q3(add_wrap(shift_floor<1>(abs_u8(off)), U8{128}));
     U8 prior_q3 = sub_wrap(add_wrap(vertex_q3, U8{128}), narrow_wrap_u8(shift_left_wrap<2>(off)));
     U8 step = add_wrap(narrow_wrap_u8(off), U8{256 + 8 - 64});
-    U8* place = match.steps + 1;
+    for (uint8_t i = 0; i < first; ++i) {
+        prior_q3 = add_wrap(prior_q3, step);
+        step = add_wrap(step, U8{16});
+    }
     U8 least{255};
     match.best = first;
     match.fit_q3 = U8{255};
-    for (uint8_t i = 0; i < kHalfBinCandidates; ++i) {
-        if (i >= first) {
-            const U8 fit = square_q3(*place);
-            const U8 sum = add_sat(fit, prior_q3);
-            *place = sum;
-            if (sum < least) {
-                least = sum;
-                match.best = i;
-                match.fit_q3 = fit;
-            }
+    U8* place = match.steps + 1 + first;
+    for (uint8_t i = first; i < kHalfBinCandidates; ++i) {
+        const U8 fit = square_q3(*place);
+        const U8 sum = add_sat(fit, prior_q3);
+        *place = sum;
+        if (sum < least) {
+            least = sum;
+            match.best = i;
+            match.fit_q3 = fit;
         }
         ++place;
         prior_q3 = add_wrap(prior_q3, step);

@@ -109,6 +109,7 @@ private:
             if (!again) sum += (coder.in_slot(byte) ? 6.0 : 12.0) / (1.5 + 0.25 * distance);
             if ((wishes_.registers[block_facts_.local.find(byte)] & set_of(which)) != 0) sum += 4;
         }
+        if (coder.state.carry_of != kNone) sum += 8;
         return sum;
     }
 
@@ -150,6 +151,8 @@ private:
 
     // What nobody reads any more must not make two states look different.
     void drop_dead(Coder& coder) const {
+        uint32_t& carry = coder.state.carry_of;
+        if (carry != kNone && block_facts_.carry_until[carry] < coder.position) carry = kNone;
         for (const Register which : kRegisters) {
             const ByteId byte = coder.content(which);
             if (byte != kNone && facts_.computed(byte) && !coder.needed(byte, false) &&

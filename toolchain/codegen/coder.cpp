@@ -15,7 +15,10 @@ void Coder::emit(uint8_t opcode, CodeOperand operand) {
     const isa::Instruction& instruction = isa::instruction(opcode);
     cost += instruction.t_not_taken + byte_cost_ * instruction.bytes;
     if ((instruction.flags & (isa::flag::kZero | isa::flag::kSign)) != 0) state.tested = kNone;
-    if ((instruction.flags & isa::flag::kCarry) != 0) state.sign_in_carry = kNone;
+    if ((instruction.flags & isa::flag::kCarry) != 0) {
+        state.sign_in_carry = kNone;
+        state.carry_of = kNone;
+    }
     if ((instruction.flags & isa::flag::kK) != 0) state.zero_in_k = {kNone, kNone};
     ++emitted;
     if (only_cost) return;
@@ -125,8 +128,12 @@ void Coder::forget(RegisterSet which) {
         if ((which & set_of(one)) != 0) set(one, kNone);
     }
     if ((which & set_of(Register::flags)) == 0) return;
-    state.tested = state.sign_in_carry = kNone;
+    state.tested = state.sign_in_carry = state.carry_of = kNone;
     state.zero_in_k = {kNone, kNone};
+}
+
+void Coder::leave_carry() {
+    if (block_->carry_until[position] != 0) state.carry_of = position;
 }
 
 CodeOperand Coder::slot(ByteId byte) const {

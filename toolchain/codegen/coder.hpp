@@ -36,6 +36,7 @@ struct State {
     Bits in_slot{};                                 ///< by local number
     ByteId tested = kNone;                          ///< Z and S tell about this byte
     ByteId sign_in_carry = kNone;                   ///< CY is its top bit
+    uint32_t carry_of = kNone;                      ///< CY is the carry of the sum there
     std::array<ByteId, 2> zero_in_k{kNone, kNone};  ///< K tells whether this word is 0
 
     bool operator==(const State&) const = default;
@@ -141,6 +142,8 @@ public:
     void point_to_slot(ByteId byte);
     /// ADD, ADC, SUB, SBB, ANA, XRA, ORA, CMP (0 to 7) of A with a byte wherever it is.
     void alu(unsigned operation, ByteId byte);
+    /// CY is the carry, or the borrow, of this operation, if a comparison will ask for it.
+    void leave_carry();
     /// A free register for the byte, best for later uses; flags if there is none.
     [[nodiscard]] Register free_register(ByteId byte, RegisterSet avoid) const;
     [[nodiscard]] CodeOperand slot(ByteId byte) const;

@@ -24,6 +24,7 @@ public:
         find_interference();
         coalesce();
         for (uint32_t index = 0; index < blocks().size(); ++index) find_uses(index);
+        find_carries();
         find_probabilities();
         find_sums();
         return std::move(facts_);
@@ -295,6 +296,18 @@ private:
         }
         for (const std::vector<uint32_t>& uses : facts.uses) {
             facts.last_use.push_back(uses.empty() ? kNone : uses.back());
+        }
+    }
+
+    void find_carries() {
+        for (std::size_t index = 0; index < blocks().size(); ++index) {
+            BlockFacts& facts = facts_.blocks[index];
+            facts.carry_answers = find_carry_answers(facts_.function, blocks()[index]);
+            facts.carry_until.assign(facts.carry_answers.size(), 0);
+            for (uint32_t at = 0; at < facts.carry_answers.size(); ++at) {
+                const uint32_t from = facts.carry_answers[at].from;
+                if (from != kNone) facts.carry_until[from] = at;
+            }
         }
     }
 

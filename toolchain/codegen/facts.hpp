@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "toolchain/codegen/carries.hpp"
 #include "toolchain/codegen/mir.hpp"
 
 namespace toolchain::codegen {
@@ -89,6 +90,8 @@ struct BlockFacts {
     std::vector<uint32_t> made{};  ///< by local number: 0 at the entry, else operation + 1
     std::vector<double> edge_probability{};
     std::vector<uint32_t> predecessors{};
+    std::vector<CarryAnswer> carry_answers{};  ///< by position
+    std::vector<uint32_t> carry_until{};       ///< by position: the last comparison that asks, or 0
     uint32_t end = 0;  ///< position of what successors need
 };
 

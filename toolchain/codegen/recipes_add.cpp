@@ -83,6 +83,7 @@ void add_chains(Ways& ways, const Coder& start, const Chain& chain) {
         add_way(ways, start, [&](Coder& coder) {
             run_chain(coder, chain, places);
             if (chain.results.size() == 1) coder.state.tested = chain.results[0];
+            if (chain.first == alu::kAdd || chain.first == alu::kSub) coder.leave_carry();
         });
     }
 }
@@ -204,6 +205,7 @@ void add_dads(Ways& ways, const Coder& start, const Operation& operation) {
                     if (coder.failed) return;
                     coder.emit(by_pair(op::kDad, same ? Pair::hl : other));
                     coder.set(Pair::hl, results[0], results[1]);
+                    coder.leave_carry();
                 });
             }
         }
@@ -347,6 +349,7 @@ void run_word_chain(Coder& coder, const Chain& chain, Pair other, Pair low, cons
         place_result(coder, chain.results[i], upper[i - 2], chain.left, chain.right, i + 1);
         coder.unlock(set_of(Register::a));
     }
+    coder.leave_carry();
 }
 
 /// `low`: where the word goes; DE stands for its slot.
@@ -441,6 +444,7 @@ void add_sums(Ways& ways, const Coder& start, const Operation& operation,
             if (!load_for_dsub(coder, operation.left, operation.right, 0)) return;
             coder.emit(op::kDsub);
             coder.set(Pair::hl, operation.results[0], operation.results[1]);
+            coder.leave_carry();
         });
     }
     const unsigned first = sum ? alu::kAdd : alu::kSub;

@@ -138,6 +138,13 @@ void add_stepwise_equal(std::vector<Decision>& ways, const Coder& start, const B
 
 // -- Order ---------------------------------------------------------------------------------------
 
+/// The sum or difference that says it was the last to change the carry.
+void add_carry_answer(std::vector<Decision>& ways, const Coder& start) {
+    const CarryAnswer& answer = start.block().carry_answers[start.position];
+    if (answer.from == kNone || start.state.carry_of != answer.from) return;
+    add_decision(ways, start, answer.inverted ? Condition::nc : Condition::c, [](Coder&) {});
+}
+
 /// @param condition  behind the subtraction: the borrow, or K for numbers with signs
 void add_below(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
                const Bytes& right, Condition condition) {
@@ -237,6 +244,7 @@ std::vector<Decision> decide(const Coder& start, Predicate predicate, const Byte
             }
             break;
         case Predicate::below:
+            add_carry_answer(ways, start);
             add_below(ways, start, left, right, Condition::c);
             add_order_by_dsub(ways, start, left, right, Condition::c);
             break;

@@ -8,12 +8,15 @@
 #include <llvm/IR/PassManager.h>
 #include <llvm/Passes/PassBuilder.h>
 
+#include "toolchain/ir/costs.hpp"
+
 namespace toolchain::ir {
 
 /// A pass that changes the function asks anew, or tells the analyses what it did.
 class Analyses {
 public:
     explicit Analyses(llvm::Function& function) : function_(function) {
+        manager_.registerPass([] { return operation_costs(); });
         llvm::PassBuilder().registerFunctionAnalyses(manager_);
     }
 
@@ -40,6 +43,7 @@ private:
 class ModuleAnalyses {
 public:
     explicit ModuleAnalyses(llvm::PassBuilder& builder) {
+        functions_.registerPass([] { return operation_costs(); });
         builder.registerModuleAnalyses(modules_);
         builder.registerCGSCCAnalyses(components_);
         builder.registerFunctionAnalyses(functions_);
