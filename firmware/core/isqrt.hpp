@@ -25,12 +25,42 @@ constexpr W isqrt_digits(W value, W digit, uint8_t passes) {
     return root;
 }
 
+/// The next digit of a root, and what is left behind it.
+/// @param rest  what is left in the upper byte, digits to come behind it, two bits each
+constexpr void next_digit(U16& rest, U8& root) {
+    const U16 trial = add_wrap(shift_left_wrap<8>(widen_u16(root)), U16{0x40});
+    root = shift_left_wrap<1>(root);
+    if (rest >= trial) {
+        rest = sub_wrap(rest, trial);
+        root = add_wrap(root, U8{1});
+    }
+    rest = shift_left_wrap<2>(rest);
+}
+
 /// Square root rounded down.
 /// @param value  u16, any
 /// @return       u8, [0, 255]; the root of 0 is 0
 /// @accuracy     exact floor (Isqrt.OfU16IsTheExactFloor)
 constexpr U8 isqrt(SameAs<U16> auto value) {
-    return narrow_wrap_u8(isqrt_digits(value, U16{0x4000}, 8));
+    // What is left stands in the upper byte of 24 bits, where it fits for six digits, and the
+    // digits to come behind it.
+    U32 rest = widen_u32(value);
+    U8 trial{1};  // four times the root so far, and one
+    for (uint8_t pass = 0; pass < 6; ++pass) {
+        rest = bit_and(shift_left_wrap<2>(rest), U32{0xFF'FFFF});
+        const U8 doubled = shift_left_wrap<1>(trial);
+        if (narrow_wrap_u8(shift_floor<16>(rest)) >= trial) {
+            rest = sub_wrap(rest, shift_left_wrap<16>(widen_u32(trial)));
+            trial = add_wrap(doubled, U8{3});
+        } else {
+            trial = sub_wrap(doubled, U8{1});
+        }
+    }
+    U8 root = shift_floor<2>(trial);
+    U16 last = narrow_wrap_u16(shift_floor<8>(rest));
+    next_digit(last, root);
+    next_digit(last, root);
+    return root;
 }
 
 /// Square root rounded down.

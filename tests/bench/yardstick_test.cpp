@@ -1,7 +1,6 @@
 // Compiled functions of the firmware beside the same by hand, on the simulated processor with the
-// same operands: both give what the host gives, and compiled code takes at most that much longer.
-// 1.5 times is wanted; wss_search does not reach it. What the difference consists of:
-// docs/design/optimisations.md.
+// same operands: both give what the host gives, and compiled code takes at most 1.5 times as long.
+// What the difference consists of: docs/design/optimisations.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -25,6 +24,7 @@ using toolchain::assembly::Program;
 using yardstick::Cells;
 
 constexpr unsigned kRuns = 500;
+constexpr double kMostRatio = 1.5;
 constexpr uint16_t kReturn = 0xFFF0;  ///< behind the stack: a HLT
 constexpr uint64_t kHltT = 5;
 const std::string kRoot = ROVER_SOURCE_DIR;
@@ -38,7 +38,7 @@ Program compiled() {
     toolchain::driver::Request request;
     request.level = toolchain::ir::Optimisation::more;
     request.front_end = {"-I" + kRoot, "-I" + kRoot + "/firmware/config/native"};
-    request.keep = {"cells", "wss_search", "ring_update"};
+    request.keep = {"cells", "wss_search", "ring_update", "square_root", "arctangent"};
     request.sources = {{kRoot + "/tests/bench/yardsticks/functions.cpp"}};
     return toolchain::driver::compile_program(request).program;
 }
@@ -47,13 +47,17 @@ Program by_hand() {
     std::vector<Module> modules;
     modules.push_back(toolchain::assembly::parse(text_of("/tests/bench/yardsticks/functions.s85"),
                                                  {.file = "functions.s85"}));
-    modules.push_back(toolchain::assembly::parse(text_of("/toolchain/runtime/multiply.s85"),
-                                                 {.file = "multiply.s85"}));
-    std::string table = "SECTION squares,constant,ALIGN 256\nsquares:\n";
-    for (const uint8_t square : rover::slip::kSquareQ3) table += fmt::format(" DB {}\n", square);
-    modules.push_back(toolchain::assembly::parse(table, {.file = "squares.s85"}));
+    for (const std::string routines : {"multiply.s85", "divide.s85"}) {
+        modules.push_back(toolchain::assembly::parse(text_of("/toolchain/runtime/" + routines),
+                                                     {.file = routines}));
+    }
+    std::string tables = "SECTION squares,constant,ALIGN 256\nsquares:\n";
+    for (const uint8_t square : rover::slip::kSquareQ3) tables += fmt::format(" DB {}\n", square);
+    tables += "SECTION arctangents,constant\narctangents:\n";
+    for (const uint16_t angle : rover::kArctangentQ2Brad) tables += fmt::format(" DW {}\n", angle);
+    modules.push_back(toolchain::assembly::parse(tables, {.file = "tables.s85"}));
     toolchain::assembly::LinkOptions options;
-    options.roots = {"wss_search", "ring_update"};
+    options.roots = {"wss_search", "ring_update", "square_root", "arctangent"};
     options.stack_size = 64;
     return toolchain::assembly::link(std::move(modules), options);
 }
@@ -61,16 +65,20 @@ Program by_hand() {
 /// Every byte as it lies in the 8085's memory.
 std::vector<uint8_t> bytes_of(const Cells& cells) {
     std::vector<uint8_t> bytes;
-    for (const int16_t item : cells.ring.items) {
-        bytes.push_back(static_cast<uint8_t>(item));
-        bytes.push_back(static_cast<uint8_t>(item >> 8));
-    }
+    const auto add_word = [&](int word) {
+        bytes.push_back(static_cast<uint8_t>(word));
+        bytes.push_back(static_cast<uint8_t>(word >> 8));
+    };
+    for (const int16_t item : cells.ring.items) add_word(item);
     bytes.push_back(cells.ring.origin);
     bytes.insert(bytes.end(), std::begin(cells.match.steps), std::end(cells.match.steps));
     for (const uint8_t byte :
          {cells.match.last, cells.match.best, cells.match.least_q3, cells.match.fit_q3, cells.first,
-          static_cast<uint8_t>(cells.off), cells.whole, cells.fraction}) {
+          static_cast<uint8_t>(cells.off), cells.whole, cells.fraction, cells.root}) {
         bytes.push_back(byte);
+    }
+    for (const int word : {int{cells.square}, int{cells.y}, int{cells.x}, int{cells.angle_brad}}) {
+        add_word(word);
     }
     return bytes;
 }
@@ -93,6 +101,10 @@ Cells random_cells(std::mt19937& random) {
     cells.off = static_cast<int8_t>(below(64) - 31);
     cells.whole = below(4);
     cells.fraction = below(256);
+    const auto word = [&] { return static_cast<uint16_t>(random()); };
+    cells.square = word();
+    cells.y = static_cast<int16_t>(word());
+    cells.x = static_cast<int16_t>(word());
     return cells;
 }
 
@@ -128,7 +140,6 @@ private:
 struct Function {
     const char* name;
     void (*on_host)(Cells&);
-    double most_ratio;
 };
 
 void PrintTo(const Function& function, std::ostream* out) {  // name from GoogleTest
@@ -156,14 +167,16 @@ TEST_P(Yardstick, CompiledCodeIsNotMuchSlowerThanHandWritten) {
         ASSERT_EQ(hand_written.cells(expected.size()), expected) << run;
     }
     const double ratio = static_cast<double>(compiled_t) / static_cast<double>(hand_t);
-    EXPECT_LE(ratio, GetParam().most_ratio);
+    EXPECT_LE(ratio, kMostRatio);
     fmt::print("{}: compiled {} T, by hand {} T on average, ratio {:.2f}\n", GetParam().name,
                compiled_t / kRuns, hand_t / kRuns, ratio);
 }
 
 INSTANTIATE_TEST_SUITE_P(Functions, Yardstick,
-                         testing::Values(Function{"wss_search", yardstick::wss_search, 1.6},
-                                         Function{"ring_update", yardstick::ring_update, 1.35}),
+                         testing::Values(Function{"wss_search", yardstick::wss_search},
+                                         Function{"ring_update", yardstick::ring_update},
+                                         Function{"square_root", yardstick::square_root},
+                                         Function{"arctangent", yardstick::arctangent}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -69,6 +69,9 @@ public:
         }
         return bytes_of(*type) * (opcode == llvm::Instruction::Select ? kSelect : 1);
     }
+
+    /// Quotient and remainder come from one call: a remainder is not made of the quotient.
+    bool hasDivRemOp(llvm::Type* /*type*/, bool /*is_signed*/) const { return true; }
     // NOLINTEND(readability-identifier-naming)
 };
 

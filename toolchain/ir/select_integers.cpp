@@ -1,6 +1,7 @@
 // select_integers.cpp - arithmetic, shifts, casts, comparisons, addresses. An integer of an odd
 // width keeps zeros in the bits above it. Depends on   selector.hpp.
 #include <fmt/format.h>
+#include <llvm/Analysis/ValueTracking.h>
 #include <llvm/IR/DataLayout.h>
 #include <llvm/IR/GetElementPtrTypeIterator.h>
 #include <llvm/IR/Metadata.h>
@@ -80,7 +81,7 @@ Bytes Selector::select_binary(const llvm::BinaryOperator& operation) {
         case Instruction::Sub:
             return masked(builder_.subtract(left(), right()), bits);
         case Instruction::And:
-            return builder_.bitwise(Opcode::bit_and, left(), right());
+            return builder_.bitwise(Opcode::bit_and, left(), mask_of(operation));
         case Instruction::Or:
             return builder_.bitwise(Opcode::bit_or, left(), right());
         case Instruction::Xor:
@@ -101,6 +102,21 @@ Bytes Selector::select_binary(const llvm::BinaryOperator& operation) {
     }
     refuse(operation, fmt::format("'{}': the 8085 has no floating point; use a Q format",
                                   operation.getOpcodeName()));
+}
+
+// LLVM takes bits out of a mask that are 0 anyway; a byte that no bit of is to go needs no mask.
+Bytes Selector::mask_of(const llvm::BinaryOperator& operation) {
+    Bytes mask = value(operation.getOperand(1));
+    const auto* number = llvm::dyn_cast<llvm::ConstantInt>(operation.getOperand(1));
+    if (number == nullptr) return mask;
+    const llvm::APInt zero =
+        llvm::computeKnownBits(operation.getOperand(0), layout_).Zero | number->getValue();
+    for (unsigned at = 0; at < mask.size(); ++at) {
+        const unsigned bits = std::min(8U, zero.getBitWidth() - 8 * at);
+        const bool clears = zero.extractBitsAsZExtValue(bits, 8 * at) + 1 != 1ULL << bits;
+        if (!clears) mask[at] = builder_.constant(0xFF, 1)[0];
+    }
+    return mask;
 }
 
 // Horner's scheme over the digits.
@@ -172,8 +188,13 @@ Bytes Selector::select_divide(const llvm::BinaryOperator& operation) {
         const Bytes bytes = value(operation.getOperand(index));
         return is_signed ? sign_from(bytes, bits, wide) : builder_.zero_extended(bytes, wide);
     };
-    Bytes result = runtime(fmt::format("__{}div{}", is_signed ? "s" : "u", wide * 8),
-                           {operand(0), operand(1)}, 2 * wide);
+    // One call gives both: the second of quotient and remainder only takes its half.
+    Bytes& result = divisions_[{operation.getParent(), operation.getOperand(0),
+                                operation.getOperand(1), is_signed}];
+    if (result.empty()) {
+        result = runtime(fmt::format("__{}div{}", is_signed ? "s" : "u", wide * 8),
+                         {operand(0), operand(1)}, 2 * wide);
+    }
     const auto middle = result.begin() + static_cast<std::ptrdiff_t>(wide);
     Bytes half = remainder ? Bytes(middle, result.end()) : Bytes(result.begin(), middle);
     half.resize(size);

@@ -6,6 +6,7 @@
 #include <llvm/IR/Instructions.h>
 #include <llvm/IR/IntrinsicInst.h>
 
+#include <compare>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,6 +40,7 @@ private:
 
     // Integers: canonical, bits above an odd width are 0.
     [[nodiscard]] Bytes select_binary(const llvm::BinaryOperator& operation);
+    [[nodiscard]] Bytes mask_of(const llvm::BinaryOperator& operation);
     [[nodiscard]] Bytes select_multiply(const llvm::BinaryOperator& operation);
     [[nodiscard]] Bytes multiply_by_constant(const Bytes& value, uint64_t factor);
     [[nodiscard]] Bytes select_divide(const llvm::BinaryOperator& operation);
@@ -83,6 +85,14 @@ private:
     codegen::Builder builder_{result_};
     std::map<const llvm::Value*, Bytes> values_;
     std::map<const llvm::BasicBlock*, codegen::BlockId> blocks_;
+    struct Division {
+        const llvm::BasicBlock* block;
+        const llvm::Value* dividend;
+        const llvm::Value* divisor;
+        bool is_signed;
+        auto operator<=>(const Division&) const = default;
+    };
+    std::map<Division, Bytes> divisions_;  ///< quotient and remainder behind it
     const llvm::Instruction* current_ = nullptr;  ///< for messages
     bool freezes_ = false;
 };

@@ -1,8 +1,10 @@
-// functions.hpp - two functions of the firmware with their operands at fixed places, to be compared
+// functions.hpp - four functions of the firmware with their operands at fixed places, to be compared
 // with the same by hand in functions.s85. The host calls them too, for what they should give.
 // Depends on   firmware/estimation/map_grid_match.hpp, firmware/core.
 #pragma once
 
+#include "firmware/core/atan2.hpp"
+#include "firmware/core/isqrt.hpp"
 #include "firmware/core/multiply.hpp"
 #include "firmware/core/ring.hpp"
 #include "firmware/estimation/map_grid_match.hpp"
@@ -19,6 +21,11 @@ struct Cells {
     int8_t off;        ///< [-31, 32]
     uint8_t whole;     ///< bins that the ring moves by, [0, 30]
     uint8_t fraction;  ///< and 1/256 of one
+    uint8_t root;
+    uint16_t square;
+    int16_t y;
+    int16_t x;
+    int16_t angle_brad;
 };
 
 /// The weighted sum of squares of nine candidates and its first minimum.
@@ -35,6 +42,16 @@ constexpr void ring_update(Cells& cells) {
         cells.ring.at(bin) =
             rover::lerp_q8(cells.ring.at(bin), cells.ring.at(next), cells.fraction);
     }
+}
+
+/// Rounded down.
+constexpr void square_root(Cells& cells) {
+    cells.root = rover::isqrt(cells.square);
+}
+
+/// From the x axis towards the y axis.
+constexpr void arctangent(Cells& cells) {
+    cells.angle_brad = rover::atan2_brad(cells.y, cells.x);
 }
 
 }  // namespace yardstick
