@@ -33,7 +33,7 @@ int run(bool update, const std::string& folder) {
     if (failed) return 1;
     if (update) {
         bench::write_figures(root + "/tests/bench/kernel_figures.csv", figures);
-        bench::write_page(root + "/docs/design/compiler-figures.md",
+        bench::write_page(root + "/docs/design/compiler-figures.md", "kernel_benchmark",
                           bench::table(kernels, figures));
     }
     return 0;

@@ -50,6 +50,7 @@ Program compiled(const std::string& name, const LevelName& level, const std::str
     request.level = level.level;
     request.undocumented = level.undocumented;
     request.table_multiply = level.table_multiply;
+    request.steps = level.steps;
     request.front_end = {"-I" + folder, "-std=c89"};
     request.keep = {"kernel", "ksum"};
     request.sources = {{.path = "main.c",

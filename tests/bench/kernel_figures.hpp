@@ -46,6 +46,7 @@ struct LevelName {
     const char* name;
     bool undocumented = false;    ///< --cpu=8085u
     bool table_multiply = false;  ///< --table-multiply
+    toolchain::Steps steps{};     ///< --without
 };
 inline constexpr LevelName kLevels[] = {{toolchain::ir::Optimisation::none, "O0"},
                                         {toolchain::ir::Optimisation::less, "O1"},

@@ -101,7 +101,7 @@ TEST(TableMultiply, PaysWhereAKernelAsksForIt) {
 }
 
 TEST(KernelPage, ShowsTheFigures) {
-    EXPECT_EQ(read_page(kRoot + "/docs/design/compiler-figures.md"),
+    EXPECT_EQ(read_page(kRoot + "/docs/design/compiler-figures.md", "kernel_benchmark"),
               table(read_kernels(kRoot + "/tests/bench/kernels.csv"), expected()));
 }
 

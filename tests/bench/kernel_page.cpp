@@ -4,7 +4,6 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
 
 namespace bench {
 
@@ -16,30 +15,33 @@ struct Page {
     std::size_t last = 0;   ///< of the second one
 };
 
-Page load(const std::string& file) {
+constexpr const char* kEnd = "<!-- end -->\n";
+
+Page load(const std::string& file, const std::string& name) {
+    const std::string mark = "<!-- " + name + " -->\n";
     std::ifstream stream(file);
     std::ostringstream content;
     content << stream.rdbuf();
     Page page{.text = content.str()};
-    const std::size_t begin = page.text.find(kPageBegin);
-    const std::size_t end = page.text.find(kPageEnd);
-    if (!stream || begin == std::string::npos || end == std::string::npos || end < begin) {
-        throw std::runtime_error(file + " has no place for the tables");
+    const std::size_t begin = page.text.find(mark);
+    const std::size_t end = begin == std::string::npos ? begin : page.text.find(kEnd, begin);
+    if (!stream || end == std::string::npos) {
+        throw std::runtime_error(file + " has no place for the tables of " + name);
     }
-    page.first = begin + std::string_view(kPageBegin).size();
+    page.first = begin + mark.size();
     page.last = end;
     return page;
 }
 
 }  // namespace
 
-std::string read_page(const std::string& file) {
-    const Page page = load(file);
+std::string read_page(const std::string& file, const std::string& name) {
+    const Page page = load(file, name);
     return page.text.substr(page.first, page.last - page.first);
 }
 
-void write_page(const std::string& file, const std::string& tables) {
-    Page page = load(file);
+void write_page(const std::string& file, const std::string& name, const std::string& tables) {
+    Page page = load(file, name);
     page.text.replace(page.first, page.last - page.first, tables);
     std::ofstream stream(file);
     stream << page.text;

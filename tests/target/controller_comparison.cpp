@@ -61,7 +61,9 @@ void InterpretedMailbox::put(const std::string& name, const Record& record) {
     std::ranges::copy(record.bytes(), &machine_.memory[machine_.address(name)]);
 }
 
-ImageMailbox::ImageMailbox(const toolchain::assembly::Program& program) : machine_(program) {
+ImageMailbox::ImageMailbox(const toolchain::assembly::Program& program,
+                           host_sim::InstructionSet set)
+    : machine_(program, set) {
     machine_.run();
 }
 

@@ -46,7 +46,8 @@ private:
 /// The image on the simulated processor.
 class ImageMailbox final : public Mailbox {
 public:
-    explicit ImageMailbox(const toolchain::assembly::Program& program);
+    explicit ImageMailbox(const toolchain::assembly::Program& program,
+                          host_sim::InstructionSet set = host_sim::InstructionSet::documented);
     void reset(const Record& calibration) override;
     void step(const Record& inputs) override;
     std::vector<uint8_t> variable(const std::string& name, std::size_t size) override;

@@ -289,7 +289,7 @@ bool Coder::load_by_ldhi(const Base& wanted) {
     const Base have = sum_in(Pair::hl);
     const int32_t distance = static_cast<int16_t>(wanted.delta - have.delta);
     const bool near = have.same_base(wanted) && distance > 0 && distance <= UINT8_MAX;
-    if (!facts_->undocumented || !near) return false;
+    if (!facts_->steps.contains(Step::ldhi) || !near) return false;
     const RegisterSet before = locks;
     lock(Pair::hl);
     vacate(Pair::de);
@@ -345,9 +345,10 @@ void Coder::load_bytes(Pair pair, ByteId low, ByteId high) {
     // Another word that is in the way moves as a whole: where words are moved by LHLX and SHLX it
     // is needed as one again.
     const auto is_wanted = [&](ByteId byte) { return byte == low || byte == high; };
-    if (facts_->undocumented && !is_wanted(content(first)) && !is_wanted(content(second)) &&
-        !locked(pair))
+    const bool by_words = facts_->steps.contains(Step::lhlx) || facts_->steps.contains(Step::shlx);
+    if (by_words && !is_wanted(content(first)) && !is_wanted(content(second)) && !locked(pair)) {
         vacate(pair);
+    }
     if (failed) return;
     const bool low_in_second =
         content(second) == low &&

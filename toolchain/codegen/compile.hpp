@@ -29,6 +29,7 @@ struct CompileOptions {
     uint64_t search_budget = 0;  ///< operations to translate at most for a function; 0: by size
     double byte_cost = 1;        ///< T-states per execution that a byte of code is worth
     bool undocumented = false;   ///< the instructions that Intel left out may be used
+    Steps steps{};               ///< to be taken
     std::string main = "main";
     /// Called by people from outside (i85run --entry): kept, and roots beside main.
     std::vector<std::string> roots{};

@@ -31,8 +31,8 @@ namespace {
 
 constexpr uint32_t kReturnAddress = 2;
 
-Module lowered(Module module) {
-    lower_calls(module);
+Module lowered(Module module, const Steps& steps) {
+    lower_calls(module, steps.contains(Step::narrow_calls));
     for (const Function& function : module.functions) {
         const std::string problem = verify(function);
         if (problem.empty()) continue;
@@ -49,7 +49,7 @@ public:
         : generator_(generator),
           options_(options),
           runtime_(runtime),
-          module_(lowered(std::move(module))),
+          module_(lowered(std::move(module), options.steps)),
           graph_(module_),
           names_(module_),
           routine_stack_(runtime) {}
@@ -172,6 +172,7 @@ private:
         options.search_budget = options_.search_budget;
         options.byte_cost = options_.byte_cost;
         options.undocumented = options_.undocumented;
+        options.steps = options_.steps;
         options.clobbers_of = [this](SymbolId symbol) { return clobbers_of(symbol); };
         set_pointer_clobbers(module_.functions[index]);
         code_[index] = generator_(module_, module_.functions[index], options);

@@ -13,9 +13,10 @@ namespace {
 
 class Finder {
 public:
-    explicit Finder(Function function) {
+    Finder(Function function, const Steps& steps) {
         facts_.function = std::move(function);
-        simplify(facts_.function);
+        facts_.steps = steps;
+        simplify(facts_.function, steps);
     }
 
     FunctionFacts run() {
@@ -303,6 +304,9 @@ private:
         for (std::size_t index = 0; index < blocks().size(); ++index) {
             BlockFacts& facts = facts_.blocks[index];
             facts.carry_answers = find_carry_answers(facts_.function, blocks()[index]);
+            if (!facts_.steps.contains(Step::carry_answers)) {
+                facts.carry_answers.assign(facts.carry_answers.size(), {});
+            }
             facts.carry_until.assign(facts.carry_answers.size(), 0);
             for (uint32_t at = 0; at < facts.carry_answers.size(); ++at) {
                 const uint32_t from = facts.carry_answers[at].from;
@@ -406,8 +410,8 @@ Base FunctionFacts::base_of(ByteId low, ByteId high) const {
     return {low, high, 0};
 }
 
-FunctionFacts find_facts(Function function) {
-    return Finder(std::move(function)).run();
+FunctionFacts find_facts(Function function, const Steps& steps) {
+    return Finder(std::move(function), steps).run();
 }
 
 }  // namespace toolchain::codegen

@@ -11,6 +11,7 @@
 
 #include "toolchain/codegen/carries.hpp"
 #include "toolchain/codegen/mir.hpp"
+#include "toolchain/codegen/steps.hpp"
 
 namespace toolchain::codegen {
 
@@ -92,14 +93,14 @@ struct BlockFacts {
     std::vector<uint32_t> predecessors{};
     std::vector<CarryAnswer> carry_answers{};  ///< by position
     std::vector<uint32_t> carry_until{};       ///< by position: the last comparison that asks, or 0
-    uint32_t end = 0;  ///< position of what successors need
+    uint32_t end = 0;                          ///< position of what successors need
 };
 
 /// Everything about a function. The function is a copy that was made simpler: equal constants have
 /// equal ids, and what nobody uses is gone.
 struct FunctionFacts {
     Function function{};
-    bool undocumented = false;              ///< the instructions that Intel left out may be used
+    Steps steps{};                          ///< to be taken
     std::vector<uint32_t> variable{};       ///< of each byte that may be stored, else kNone
     std::vector<uint32_t> index{};          ///< of each byte in its variable
     std::vector<uint32_t> variable_size{};  ///< bytes
@@ -130,12 +131,14 @@ struct FunctionFacts {
 };
 
 /// @param function  behind lower_calls()
-[[nodiscard]] FunctionFacts find_facts(Function function);
+/// @param steps     at first those for documented instructions
+[[nodiscard]] FunctionFacts find_facts(Function function,
+                                       const Steps& steps = Steps().documented());
 
 /// The byte that an edge hands over for a byte of its target.
 [[nodiscard]] ByteId passed_for(const Function& function, const Edge& edge, ByteId wanted);
 
 /// Part of find_facts: gives equal constants and addresses one id, drops results that nobody needs.
-void simplify(Function& function);
+void simplify(Function& function, const Steps& steps = {});
 
 }  // namespace toolchain::codegen

@@ -39,14 +39,15 @@ CodeOperand number(int32_t value) {
 class Generator {
 public:
     Generator(const Module& module, const Function& function, const GenerateOptions& options)
-        : module_(module), options_(options), facts_(find_facts(function)) {
-        facts_.undocumented = options.undocumented;
-    }
+        : module_(module),
+          options_(options),
+          facts_(find_facts(function,
+                            options.undocumented ? options.steps : options.steps.documented())) {}
 
     FunctionCode run() {
         next_label_ = static_cast<uint32_t>(facts_.function.blocks.size());
         HomesOptions homes;
-        homes.search = options_.search;
+        homes.search = options_.search && takes(Step::homes);
         homes.budget = options_.search_budget;
         homes.byte_cost = options_.byte_cost;
         homes.by_chance = options_.homes_by_chance;
@@ -61,7 +62,7 @@ public:
         improve(code_.items);
         clean();
         find_clobbers();
-        if (is_clean_ && facts_.function.interrupt < 0) {
+        if (is_clean_ && facts_.function.interrupt < 0 && takes(Step::tail_calls)) {
             jump_to_last_calls(code_.items, symbol_of(kCallThroughHl));
         }
         count_stack();
@@ -72,6 +73,8 @@ public:
     }
 
 private:
+    [[nodiscard]] bool takes(Step step) const { return options_.steps.contains(step); }
+
     [[nodiscard]] uint32_t symbol_of(const char* name) const {
         const auto found = module_.symbol_ids.find(name);
         return found == module_.symbol_ids.end() ? kNone : found->second;
@@ -117,15 +120,15 @@ private:
         allocate_frame();
         RegisterSet at_return = 0;
         for (const Register which : facts_.function.result_registers) at_return |= set_of(which);
-        clean_up(code_.items, code_.frame_bytes, at_return);
+        if (takes(Step::clean_up)) clean_up(code_.items, code_.frame_bytes, at_return);
         improve(code_.items);
         if (options_.byte_cost > 0) {
-            load_early(code_.items, at_return);
+            if (takes(Step::early_loads)) load_early(code_.items, at_return);
             improve(code_.items);
-            merge_tails(code_.items, next_label_);
+            if (takes(Step::merged_tails)) merge_tails(code_.items, next_label_);
             improve(code_.items);
         }
-        take_short_forms(code_.items, at_return);
+        if (takes(Step::short_forms)) take_short_forms(code_.items, at_return);
         is_clean_ = true;
     }
 

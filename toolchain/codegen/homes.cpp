@@ -69,6 +69,7 @@ private:
         }
         for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
             if (edges.size() != 2 || placed[edges[side].target]) continue;
+            if (!facts_.steps.contains(Step::detours)) continue;
             if (is_detour(block, side)) best = edges[side].target;
         }
         return best;

@@ -400,7 +400,7 @@ bool has_table(const Module& module) {
 
 }  // namespace
 
-void lower_calls(Module& module) {
+void lower_calls(Module& module, bool narrow) {
     mark_signatures(module);
     mark_recursion(module);
     std::map<SymbolId, std::size_t> functions;
@@ -408,7 +408,7 @@ void lower_calls(Module& module) {
         functions[module.functions[i].symbol] = i;
     }
     for (Function& function : module.functions) {
-        narrow_calls(module, function);
+        if (narrow) narrow_calls(module, function);
         if (function.recursive) StackVariables(function).run();
     }
     for (Function& function : module.functions) Places(module, functions, function).run();

@@ -10,6 +10,7 @@ namespace toolchain::codegen {
 /// stores and loads at fixed symbols: `NAME@args` (a FrameObject of the function), for functions
 /// whose address is taken one symbol per signature, for runtime routines their cells. Calls of
 /// `__mul16` and the like become calls of the narrowest routine that gives the same bytes.
-void lower_calls(Module& module);
+/// @param narrow  false: they stay as they are
+void lower_calls(Module& module, bool narrow = true);
 
 }  // namespace toolchain::codegen

@@ -113,7 +113,9 @@ void step_pair(Coder& coder, Pair pair, const Bytes& results, int step) {
     }
     coder.set(pair, results[0], results[1]);
     // INX from FFFFH sets K.
-    if (step > 0 && coder.facts().undocumented) coder.state.zero_in_k = {results[0], results[1]};
+    if (step > 0 && coder.facts().steps.contains(Step::zero_by_k)) {
+        coder.state.zero_in_k = {results[0], results[1]};
+    }
 }
 
 // LDHI: a word up to 255 more than one in HL goes to DE.
@@ -122,7 +124,7 @@ void add_word_by_ldhi(Ways& ways, const Coder& start, const Operation& operation
     const Base have = start.sum_in(Pair::hl);
     const int distance = static_cast<int16_t>(wanted.delta - have.delta);
     const bool near = have.same_base(wanted);
-    if (!start.facts().undocumented || (near ? distance : step) < 0 ||
+    if (!start.facts().steps.contains(Step::ldhi) || (near ? distance : step) < 0 ||
         (near ? distance : step) > UINT8_MAX) {
         return;
     }
@@ -371,7 +373,7 @@ void add_word_chain(Ways& ways, const Coder& start, const Chain& chain, Pair oth
 void add_word_chains(Ways& ways, const Coder& start, const Operation& operation) {
     if (operation.results.size() > 4) return;
     if (operation.opcode == Opcode::subtract) {
-        if (!start.facts().undocumented) return;
+        if (!start.facts().steps.contains(Step::dsub)) return;
         const Chain chain{alu::kSub, alu::kSbb, operation.left, operation.right, operation.results};
         return add_word_chain(ways, start, chain, Pair::hl);
     }
@@ -438,8 +440,10 @@ void add_sums(Ways& ways, const Coder& start, const Operation& operation,
         add_byte_to_word(ways, start, operation, context);
     }
     if (sum && size == 4) add_long_dads(ways, start, operation, context);
-    if (size > 2) add_word_chains(ways, start, operation);
-    if (!sum && size == 2 && start.facts().undocumented) {
+    if (size > 2 && start.facts().steps.contains(Step::word_chains)) {
+        add_word_chains(ways, start, operation);
+    }
+    if (!sum && size == 2 && start.facts().steps.contains(Step::dsub)) {
         add_way(ways, start, [&](Coder& coder) {
             if (!load_for_dsub(coder, operation.left, operation.right, 0)) return;
             coder.emit(op::kDsub);

@@ -60,7 +60,7 @@ void add_tests(std::vector<Decision>& ways, const Coder& start, ByteId byte, Con
 
 /// The carry may hold the top bit already: of a value that was doubled.
 void add_sign_tests(std::vector<Decision>& ways, const Coder& start, ByteId byte, bool set) {
-    if (start.state.sign_in_carry == byte) {
+    if (start.state.sign_in_carry == byte && start.facts().steps.contains(Step::carry_signs)) {
         add_decision(ways, start, set ? Condition::c : Condition::nc, [](Coder&) {});
     }
     add_tests(ways, start, byte, set ? Condition::m : Condition::p);
@@ -169,7 +169,7 @@ void add_below(std::vector<Decision>& ways, const Coder& start, const Bytes& lef
 /// DSUB of the lowest words, the bytes above by A: CY is the borrow, and K says "less".
 void add_order_by_dsub(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
                        const Bytes& right, Condition condition) {
-    if (!start.facts().undocumented || left.size() < 2) return;
+    if (!start.facts().steps.contains(Step::dsub) || left.size() < 2) return;
     add_decision(ways, start, condition, [&](Coder& coder) {
         if (!load_for_dsub(coder, left, right, 0)) return;
         coder.emit(op::kDsub);
@@ -186,7 +186,7 @@ void add_order_by_dsub(std::vector<Decision>& ways, const Coder& start, const By
 /// Behind a subtraction K says "less".
 void add_less_by_k(std::vector<Decision>& ways, const Coder& start, const Bytes& left,
                    const Bytes& right) {
-    if (!start.facts().undocumented) return;
+    if (!start.facts().steps.contains(Step::less_by_k)) return;
     add_below(ways, start, left, right, Condition::k);
     add_order_by_dsub(ways, start, left, right, Condition::k);
 }

@@ -294,7 +294,7 @@ void store_through(Coder& coder, const Operation& operation, Pair pair, Register
 void add_loads(Ways& ways, const Coder& start, const Operation& operation) {
     const std::size_t size = operation.results.size();
     std::vector<Places> choices = places_for(size);
-    if (start.facts().undocumented && (size == 2 || size == 4)) {
+    if (start.facts().steps.contains(Step::lhlx) && (size == 2 || size == 4)) {
         for (const Pair low : {Pair::bc, Pair::de}) {
             if (size == 2 && low == Pair::de) continue;
             add_way(ways, start, [&](Coder& coder) { load_by_lhlx(coder, operation, low); });
@@ -322,7 +322,7 @@ void add_stores(Ways& ways, const Coder& start, const Operation& operation) {
         }
     }
     const std::size_t size = operation.right.size();
-    if (start.facts().undocumented && (size == 2 || size == 4)) {
+    if (start.facts().steps.contains(Step::shlx) && (size == 2 || size == 4)) {
         for (const bool address_first : {false, true}) {
             add_way(ways, start,
                     [&](Coder& coder) { store_by_shlx(coder, operation, address_first); });

@@ -409,7 +409,7 @@ void add_shifts(Ways& ways, const Coder& start, const Operation& operation) {
         return;
     }
     if (size == 1) return add_byte_shifts(ways, start, operation);
-    if (start.facts().undocumented) add_undocumented_shifts(ways, start, operation);
+    add_undocumented_shifts(ways, start, operation);
     if (operation.opcode == Opcode::shift_left) {
         if (size == 2) add_left_word(ways, start, operation);
         if (size == 3) add_left_three(ways, start, operation);

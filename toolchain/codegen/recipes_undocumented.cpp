@@ -132,13 +132,15 @@ void add_long_right(Ways& ways, const Coder& start, const Operation& operation) 
 
 void add_undocumented_shifts(Ways& ways, const Coder& start, const Operation& operation) {
     const std::size_t size = operation.results.size();
+    const bool by_rdel = start.facts().steps.contains(Step::rdel);
+    const bool by_arhl = start.facts().steps.contains(Step::arhl);
     if (operation.opcode == Opcode::shift_left) {
-        if (size == 4) add_left_long(ways, start, operation);
+        if (size == 4 && by_rdel) add_left_long(ways, start, operation);
         return;
     }
-    if (size == 2) add_word_right(ways, start, operation);
-    if (size == 4) add_right_by_left(ways, start, operation);
-    if (size == 4) add_long_right(ways, start, operation);
+    if (size == 2 && by_arhl) add_word_right(ways, start, operation);
+    if (size == 4 && by_rdel) add_right_by_left(ways, start, operation);
+    if (size == 4 && by_arhl) add_long_right(ways, start, operation);
 }
 
 }  // namespace toolchain::codegen

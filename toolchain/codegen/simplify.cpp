@@ -260,12 +260,12 @@ void drop_passages(Function& function) {
 
 }  // namespace
 
-void simplify(Function& function) {
+void simplify(Function& function, const Steps& steps) {
     intern_constants(function);
     shrink_comparisons(function);
     drop_unneeded(function);
     keep_probabilities(function);
-    drop_passages(function);
+    if (steps.contains(Step::passages)) drop_passages(function);
 }
 
 }  // namespace toolchain::codegen

@@ -193,7 +193,7 @@ private:
         for (const ModulePointer& module : modules_) check_functions(*module);
         for (const ModulePointer& module : modules_) {
             ir::take_loop_bounds(*module);
-            ir::optimise(*module, request_.level);
+            ir::optimise(*module, request_.level, request_.steps);
         }
     }
 
@@ -211,8 +211,9 @@ private:
 
     void prepare() {
         clock_.begin("prepare");
-        if (request_.level != ir::Optimisation::none) ir::fix_places(*whole_);
-        ir::prepare(*whole_, request_.undocumented);
+        const bool fixes = request_.steps.contains(Step::fixed_places);
+        if (request_.level != ir::Optimisation::none && fixes) ir::fix_places(*whole_);
+        ir::prepare(*whole_, request_.undocumented, request_.steps);
         std::string problem;
         llvm::raw_string_ostream stream(problem);
         if (llvm::verifyModule(*whole_, &stream)) throw std::logic_error(problem);
@@ -267,6 +268,7 @@ codegen::Compiled generate(const Request& request, codegen::Module module,
     options.search_budget = request.search_budget;
     options.byte_cost = request.byte_cost;
     options.undocumented = request.undocumented;
+    options.steps = request.steps;
     for (const std::string& root : roots) {
         const auto symbol = module.symbol_ids.find(root);
         if (symbol != module.symbol_ids.end() && module.find(symbol->second) != nullptr) {

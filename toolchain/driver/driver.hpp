@@ -48,6 +48,7 @@ struct Request {
     bool allow_constructors = true;  ///< of static objects, at start-up
     bool small_runtime = false;      ///< products and quotients of words by loops
     bool table_multiply = false;     ///< products of bytes by a table of 512 bytes
+    Steps steps{};                   ///< to be taken
     uint64_t search_budget = 0;      ///< for register homes: GenerateOptions; 0: by size
     double byte_cost = 1;            ///< T-states per execution that a byte of code is worth
     assembly::AddressRange rom = assembly::LinkOptions{}.rom;

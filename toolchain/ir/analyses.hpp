@@ -42,8 +42,9 @@ private:
 /// Of a whole module, for LLVM's own pass managers.
 class ModuleAnalyses {
 public:
-    explicit ModuleAnalyses(llvm::PassBuilder& builder) {
-        functions_.registerPass([] { return operation_costs(); });
+    /// @param with_costs  false: those of LLVM
+    explicit ModuleAnalyses(llvm::PassBuilder& builder, bool with_costs = true) {
+        if (with_costs) functions_.registerPass([] { return operation_costs(); });
         builder.registerModuleAnalyses(modules_);
         builder.registerCGSCCAnalyses(components_);
         builder.registerFunctionAnalyses(functions_);

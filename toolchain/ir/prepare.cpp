@@ -29,7 +29,8 @@ void check(const llvm::Function& function, const char* behind) {
 
 }  // namespace
 
-void prepare(llvm::Module& module, bool undocumented) {
+void prepare(llvm::Module& module, bool undocumented, const Steps& steps) {
+    const bool counts_up = undocumented && steps.contains(Step::zero_by_k);
     refuse_unsupported(module);
     llvm::FunctionAnalysisManager functions;
     llvm::PassBuilder builder;
@@ -42,20 +43,23 @@ void prepare(llvm::Module& module, bool undocumented) {
         };
         llvm::LowerConstantIntrinsicsPass().run(function, functions);
         functions.invalidate(function, llvm::PreservedAnalyses::none());
+        const auto take = [&](Step step, const char* name, void (*pass)(llvm::Function&)) {
+            if (steps.contains(step)) run(name, pass);
+        };
         run("copy_by_value_arguments", copy_by_value_arguments);
-        run("step_pointers", step_pointers);
-        run("count_down", undocumented ? count_words_up : count_down);
-        run("find_pages", find_pages);
-        run("narrow_values", narrow_values);
+        take(Step::stepped_pointers, "step_pointers", step_pointers);
+        take(Step::counting_down, "count_down", counts_up ? count_words_up : count_down);
+        take(Step::pages, "find_pages", find_pages);
+        take(Step::narrow_values, "narrow_values", narrow_values);
         run("expand_intrinsics", expand_intrinsics);
         run("expand_wide_products", expand_wide_products);
         run("lower_switches", lower_switches);
-        run("choose_results", choose_results);
+        take(Step::chosen_results, "choose_results", choose_results);
         run("split_conditions", split_conditions);
         run("expand_selects", expand_selects);
         run("split_conditions", split_conditions);  // those of selects
-        run("place_near_use", place_near_use);
-        if (undocumented) run("count_last", count_last);
+        take(Step::near_use, "place_near_use", place_near_use);
+        if (counts_up) run("count_last", count_last);
     }
 }
 

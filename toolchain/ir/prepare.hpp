@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include "toolchain/codegen/steps.hpp"
+
 namespace llvm {
 class Module;
 }
@@ -15,8 +17,9 @@ namespace toolchain::ir {
 
 enum class Optimisation : uint8_t { none, less, more, size };
 
-/// LLVM's own pipeline for that level, without vectors and unrolling.
-void optimise(llvm::Module& module, Optimisation level);
+/// LLVM's own pipeline for that level, without vectors and unrolling. Of the steps, LLVM keeps
+/// counting_loops for the whole process.
+void optimise(llvm::Module& module, Optimisation level, const Steps& steps = {});
 
 /// Pointer parameters that always hold the same address are replaced by it; variables of a caller
 /// become internal ones with kFrameAttribute, which select() gives back to its static frame.
@@ -25,6 +28,6 @@ inline constexpr const char* kFrameAttribute = "i85-frame";  ///< its value: the
 
 /// Replaces what select() does not know.
 /// @param undocumented  the code will have JNK: long counts go up to 0, INX tells by K
-void prepare(llvm::Module& module, bool undocumented = false);
+void prepare(llvm::Module& module, bool undocumented = false, const Steps& steps = {});
 
 }  // namespace toolchain::ir

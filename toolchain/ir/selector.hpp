@@ -92,7 +92,7 @@ private:
         bool is_signed;
         auto operator<=>(const Division&) const = default;
     };
-    std::map<Division, Bytes> divisions_;  ///< quotient and remainder behind it
+    std::map<Division, Bytes> divisions_;         ///< quotient and remainder behind it
     const llvm::Instruction* current_ = nullptr;  ///< for messages
     bool freezes_ = false;
 };

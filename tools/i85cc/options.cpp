@@ -2,6 +2,7 @@
 #include "tools/i85cc/options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <charconv>
@@ -26,6 +27,8 @@ beside it OUT.bin, .map, .lst, .sym. Needs clang-19 (on PATH, or I85CC_CLANG).
   --no-constructors    refuse static objects that are constructed at run time
   --small-runtime      smaller, slower routines for products and quotients of words
   --table-multiply     products of bytes by a table: 512 bytes where one is used, and faster
+  --without STEP       leave a step of optimisation out, to find out whether a fault is its own;
+                       may be repeated; a name that does not exist lists them
   --separate           each source behind it is optimised as a module of its own
   --keep NAME          keep a function or variable that main does not reach; may be repeated
   --rom FIRST-LAST     addresses of ROM (default 0-7FFFH)
@@ -87,6 +90,14 @@ uint16_t parse_address(const std::string& option, const std::string& text) {
     if (const auto address = parse_number(text)) return static_cast<uint16_t>(*address);
     throw UsageError(
         fmt::format("{}: '{}' is not an address: write it such as 0800H", option, text));
+}
+
+toolchain::Step parse_step(const std::string& name) {
+    if (const auto step = toolchain::step_named(name)) return *step;
+    std::vector<std::string_view> names;
+    for (const toolchain::StepName& known : toolchain::step_names()) names.push_back(known.name);
+    throw UsageError(
+        fmt::format("--without: no such step '{}'; there are {}", name, fmt::join(names, ", ")));
 }
 
 class Parser {
@@ -178,6 +189,8 @@ private:
             options_.output = *output;
         } else if (const auto kept = value_of(argument, "--keep")) {
             request.keep.push_back(*kept);
+        } else if (const auto step = value_of(argument, "--without")) {
+            request.steps.leave_out(parse_step(*step));
         } else if (const auto rom = value_of(argument, "--rom")) {
             request.rom = parse_range("--rom", *rom);
         } else if (const auto ram = value_of(argument, "--ram")) {

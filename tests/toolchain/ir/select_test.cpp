@@ -62,6 +62,63 @@ APInt expected(const std::string& operation, const APInt& left, const APInt& rig
     return left.ashr(right);
 }
 
+std::size_t calls_in(const toolchain::codegen::Module& mir) {
+    std::size_t calls = 0;
+    for (const auto& block : mir.functions.at(0).blocks) {
+        for (const auto& operation : block.operations) {
+            calls += operation.opcode == toolchain::codegen::Opcode::call ? 1 : 0;
+        }
+    }
+    return calls;
+}
+
+// The routines give both.
+TEST(SelectDivision, QuotientAndRemainderAreOneCall) {
+    for (const char* sign : {"u", "s"}) {
+        for (const bool remainder_first : {false, true}) {
+            const std::string quotient = fmt::format("%q = {}div i16 %a, %b\n", sign);
+            const std::string remainder = fmt::format("%r = {}rem i16 %a, %b\n", sign);
+            const auto mir =
+                to_mir("define i16 @f(i16 %a, i16 %b) {\n" +
+                       (remainder_first ? remainder + quotient : quotient + remainder) +
+                       "%x = mul i16 %q, 5\n%s = xor i16 %x, %r\nret i16 %s\n}\n");
+            EXPECT_EQ(calls_in(mir), 1U) << sign << remainder_first;
+            Interpreter interpreter(mir);
+            EXPECT_EQ(interpreter.call("f", {1000, 7}), (1000U / 7 * 5) ^ (1000U % 7));
+        }
+    }
+    const auto other = to_mir(
+        "define i16 @f(i16 %a, i16 %b) {\n%q = udiv i16 %a, %b\n%r = urem i16 %b, %a\n"
+        "%s = xor i16 %q, %r\nret i16 %s\n}\n");
+    EXPECT_EQ(calls_in(other), 2U) << "other operands";
+    const auto mixed = to_mir(
+        "define i16 @f(i16 %a, i16 %b) {\n%q = udiv i16 %a, %b\n%r = srem i16 %a, %b\n"
+        "%s = xor i16 %q, %r\nret i16 %s\n}\n");
+    EXPECT_EQ(calls_in(mixed), 2U) << "one with signs, one without";
+}
+
+// LLVM writes the mask without bits that are 0 anyway.
+TEST(SelectMask, ClearsNothingThatIsClear) {
+    const auto ands = [](const std::string& mask) {
+        const auto mir = to_mir("define i16 @f(i16 %a) {\n%s = shl i16 %a, 2\n%m = and i16 %s, " +
+                                mask + "\nret i16 %m\n}\n");
+        std::size_t count = 0;
+        for (const auto& operation : mir.functions.at(0).blocks.at(0).operations) {
+            count += operation.opcode == toolchain::codegen::Opcode::bit_and ? 1 : 0;
+        }
+        Interpreter interpreter(mir);
+        const auto number = static_cast<uint16_t>(std::stoi(mask));
+        for (const uint64_t value : {0x0000U, 0xFFFFU, 0x5555U, 0x1234U}) {
+            EXPECT_EQ(interpreter.call("f", {value}), value << 2 & number) << mask;
+        }
+        return count;
+    };
+    EXPECT_EQ(ands("4092"), 1U);    // 0FFCH: of the upper byte
+    EXPECT_EQ(ands("-4"), 0U);      // FFFCH
+    EXPECT_EQ(ands("-8"), 1U);      // FFF8H: of the lower byte
+    EXPECT_EQ(ands("-16388"), 1U);  // BFFCH
+}
+
 /// Operation, and whether the module goes through lower_calls().
 class SelectBinary : public testing::TestWithParam<std::tuple<std::string, bool>> {};
 

@@ -95,6 +95,20 @@ TEST(Options, Switches) {
         parse_options({"--cpu=8085u", "--cpu=8085", "-o", "a.hex", "a.c"}).request.undocumented);
 }
 
+TEST(Options, StepsAreLeftOutByName) {
+    const Options options =
+        parse_options({"--without", "carry-answers", "--without=lhlx", "-o", "a.hex", "a.c"});
+    for (const toolchain::StepName& name : toolchain::step_names()) {
+        const bool left_out =
+            name.step == toolchain::Step::carry_answers || name.step == toolchain::Step::lhlx;
+        EXPECT_EQ(options.request.steps.contains(name.step), !left_out) << name.name;
+    }
+    EXPECT_THAT(
+        [] { (void)parse_options({"--without", "luck", "-o", "a.hex", "a.c"}); },
+        testing::ThrowsMessage<i85cc::UsageError>(testing::AllOf(
+            testing::HasSubstr("--without: no such step 'luck'"), testing::HasSubstr("homes"))));
+}
+
 TEST(Options, StagesNeedNoOutput) {
     EXPECT_EQ(parse_options({"--emit=llvm", "a.c"}).emit, Text::llvm);
     EXPECT_EQ(parse_options({"--emit=mir", "a.c"}).emit, Text::mir);
@@ -115,6 +129,7 @@ TEST(Options, HelpNamesEveryOption) {
                                "--allow-recursion",
                                "--no-constructors",
                                "--table-multiply",
+                               "--without",
                                "--separate",
                                "--keep",
                                "--rom",

@@ -1,0 +1,57 @@
+// Code is right without any one of the steps that make it better, and the page names them all.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/bench/kernel_figures.hpp"
+#include "tests/bench/kernel_page.hpp"
+
+namespace toolchain {
+void PrintTo(const StepName& name, std::ostream* out) {  // name from GoogleTest
+    *out << name.name;
+}
+}  // namespace toolchain
+
+namespace {
+
+const std::string kRoot = ROVER_SOURCE_DIR;
+
+class WithoutStep : public testing::TestWithParam<toolchain::StepName> {};
+
+// measure() compares checksums. Four kernels have a little of everything.
+TEST_P(WithoutStep, KernelsGiveTheirChecksums) {
+    const std::string folder = kRoot + "/../shared/kernels";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared/kernels is not there";
+    toolchain::Steps steps;
+    steps.leave_out(GetParam().step);
+    for (const bench::Kernel& kernel : bench::read_kernels(kRoot + "/tests/bench/kernels.csv")) {
+        const bool chosen = kernel.name == "wss" || kernel.name == "div32" ||
+                            kernel.name == "fuzzy" || kernel.name == "isqrt";
+        if (!chosen) continue;
+        EXPECT_NO_THROW((void)bench::measure(kernel,
+                                             {.level = toolchain::ir::Optimisation::more,
+                                              .name = "O2",
+                                              .undocumented = GetParam().undocumented,
+                                              .steps = steps},
+                                             folder))
+            << kernel.name;
+    }
+}
+
+TEST_P(WithoutStep, ThePageHasItsFigures) {
+    const std::string page =
+        bench::read_page(kRoot + "/docs/design/optimisations.md", "step_effects");
+    EXPECT_NE(page.find("| `" + std::string(GetParam().name) + "` |"), page.npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, WithoutStep, testing::ValuesIn(toolchain::step_names()),
+                         [](const auto& test) {
+                             std::string name(test.param.name);
+                             for (char& letter : name) {
+                                 if (letter == '-') letter = '_';
+                             }
+                             return name;
+                         });
+
+}  // namespace
