@@ -75,8 +75,8 @@ uint64_t image_bytes(bool undocumented, const Steps& steps) {
 }
 
 void add_step_times(bool undocumented, const Steps& steps, Cost& cost) {
-    auto request = target_test::firmware_request(toolchain::ir::Optimisation::size);
-    request.undocumented = undocumented;
+    auto request =
+        target_test::firmware_request({toolchain::ir::Optimisation::size, "Os", undocumented});
     request.steps = steps;
     const auto program = toolchain::driver::compile_program(request).program;
     target_test::ImageMailbox target(program, undocumented ? host_sim::InstructionSet::all

@@ -27,7 +27,7 @@ std::string difference(const std::string& name, const std::vector<uint8_t>& seen
 
 }  // namespace
 
-toolchain::driver::Request firmware_request(Optimisation level) {
+toolchain::driver::Request firmware_request(const Level& level) {
     const std::string root = ROVER_SOURCE_DIR;
     toolchain::driver::Request made = request(level);
     made.sources = {{.path = root + "/tests/target/controller_program.cpp"}};

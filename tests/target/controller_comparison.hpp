@@ -17,7 +17,7 @@
 namespace target_test {
 
 /// Of controller_program.cpp with the firmware as it is in the tree.
-[[nodiscard]] toolchain::driver::Request firmware_request(Optimisation level);
+[[nodiscard]] toolchain::driver::Request firmware_request(const Level& level);
 
 /// What a program with the mailbox can do.
 class Mailbox {

@@ -22,7 +22,7 @@ uint64_t number_from(const char* variable, uint64_t otherwise) {
 }
 
 toolchain::assembly::Program compiled(const VolatileProgram& source, const Level& level) {
-    toolchain::driver::Request made = request(level.level);
+    toolchain::driver::Request made = request(level);
     made.sources = {{.path = "volatile.c", .text = source.text}};
     for (const Device& device : source.devices) {
         if (device.address == 0) made.keep.push_back(device.name);
@@ -51,7 +51,8 @@ TEST_P(Volatile, AccessesAreThoseOfTheAbstractMachine) {
     for (uint64_t seed = first; seed < first + programs; ++seed) {
         const VolatileProgram source = make_volatile_program(seed);
         accesses += source.accesses.size();
-        const WatchedRun run = run_watched(compiled(source, GetParam()), source.devices, seed);
+        const WatchedRun run = run_watched(compiled(source, GetParam()), source.devices, seed,
+                                           GetParam().undocumented);
         ASSERT_TRUE(run.halted) << "seed " << seed << "\n" << source.text;
         ASSERT_EQ(difference(source.accesses, run), "") << "seed " << seed << "\n" << source.text;
     }
@@ -59,7 +60,7 @@ TEST_P(Volatile, AccessesAreThoseOfTheAbstractMachine) {
     EXPECT_GT(accesses, 20 * programs);
 }
 
-INSTANTIATE_TEST_SUITE_P(Levels, Volatile, testing::ValuesIn(kLevels),
+INSTANTIATE_TEST_SUITE_P(Levels, Volatile, testing::ValuesIn(kSettings),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -101,7 +101,7 @@ void WatchedBus::out(uint8_t port, uint8_t value, uint64_t) {
 }
 
 WatchedRun run_watched(const toolchain::assembly::Program& program,
-                       const std::vector<Device>& devices, uint64_t seed) {
+                       const std::vector<Device>& devices, uint64_t seed, bool undocumented) {
     host_sim::FlatMemory memory = host_sim::all_ram();
     memory.bytes.fill(0xA7);
     for (std::size_t i = 0; i < toolchain::assembly::kMemorySize; ++i) {
@@ -119,7 +119,9 @@ WatchedRun run_watched(const toolchain::assembly::Program& program,
     if (main == nullptr) throw std::runtime_error("the program has no main");
     host_sim::CpuState cpu;
     cpu.pc = program.start.value_or(0);
-    host_sim::Reference<WatchedBus> processor(cpu, bus, host_sim::InstructionSet::documented);
+    host_sim::Reference<WatchedBus> processor(
+        cpu, bus,
+        undocumented ? host_sim::InstructionSet::all : host_sim::InstructionSet::documented);
     while (!cpu.halted && cpu.t < kLimitT) {
         if (cpu.pc == main->value) bus.start();
         if (!processor.execute()) {

@@ -76,6 +76,7 @@ struct WatchedRun {
 
 /// Runs the program from reset; watches from the first instruction of main up to the HLT.
 [[nodiscard]] WatchedRun run_watched(const toolchain::assembly::Program& program,
-                                     const std::vector<Device>& devices, uint64_t seed);
+                                     const std::vector<Device>& devices, uint64_t seed,
+                                     bool undocumented = false);
 
 }  // namespace target_test

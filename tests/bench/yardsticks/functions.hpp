@@ -1,5 +1,6 @@
-// functions.hpp - four functions of the firmware with their operands at fixed places, to be compared
-// with the same by hand in functions.s85. The host calls them too, for what they should give.
+// functions.hpp - four functions of the firmware with their operands at fixed places, to be
+// compared with the same by hand in functions.s85. The host calls them too, for what they should
+// give.
 // Depends on   firmware/estimation/map_grid_match.hpp, firmware/core.
 #pragma once
 
