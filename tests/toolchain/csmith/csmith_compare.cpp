@@ -88,6 +88,8 @@ int main(int argc, char** argv) {
     std::string cpu = "8085";
     app.add_option("--cpu", cpu, "8085, or 8085u: with undocumented instructions")
         ->check(CLI::IsMember({"8085", "8085u"}));
+    std::vector<std::string> left_out;
+    app.add_option("--without", left_out, "a step of optimisation, as i85cc names it");
     app.add_option("--jobs", campaign.jobs, "processes at a time")->check(CLI::Range(1, 256));
     bool kernels = false;
     app.add_flag("--kernels", kernels, "loops over arrays instead of csmith's programs");
@@ -101,6 +103,17 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     options.keep = keep;
     options.subject.undocumented = cpu == "8085u";
+    for (const std::string& name : left_out) {
+        const auto step = toolchain::step_named(name);
+        if (!step) {
+            fmt::print(
+                stderr,
+                "csmith_compare: --without {}: no such step: `i85cc --without list` names them\n",
+                name);
+            return 2;
+        }
+        options.subject.steps.leave_out(*step);
+    }
     if (kernels) options.kind = Generator::kernels;
     if (mir) options.layer = Layer::mir;
     for (const std::string& define : defines) program.options.push_back("-D" + define);

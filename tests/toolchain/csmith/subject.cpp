@@ -40,6 +40,7 @@ toolchain::driver::Request request_for(const Program& program, const SubjectOpti
     request.level = level_of(options.level);
     request.search_budget = options.search_budget;
     request.undocumented = options.undocumented;
+    request.steps = options.steps;
     request.rom = kRom;
     request.ram = kRam;
     request.front_end = {"-std=gnu99"};

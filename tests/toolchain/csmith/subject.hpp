@@ -13,6 +13,7 @@
 #include "tests/toolchain/csmith/oracle.hpp"
 #include "toolchain/asm/program.hpp"
 #include "toolchain/codegen/mir.hpp"
+#include "toolchain/codegen/steps.hpp"
 
 namespace csmith_test {
 
@@ -22,6 +23,7 @@ struct SubjectOptions {
     std::string level = "s";     ///< "0", "1", "2" or "s"
     bool undocumented = false;   ///< instructions too: --cpu=8085u
     uint64_t search_budget = 0;  ///< as in driver::Request
+    toolchain::Steps steps{};    ///< to be taken
     /// Change what is executed; tests put faults in with them.
     std::function<void(toolchain::codegen::Module&)> meddle_mir{};
     std::function<void(toolchain::assembly::Program&)> meddle_image{};
