@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
+#include "tests/target/compile.hpp"
 #include "tests/target/machine.hpp"
 #include "toolchain/driver/driver.hpp"
 
@@ -50,12 +52,18 @@ TEST_P(MixedWork, GivesThePublishedSumsInTime) {
     fmt::print("{}: {} T-states, {} bytes of code\n", GetParam().name, t, bytes);
 }
 
-using toolchain::ir::Optimisation;
-INSTANTIATE_TEST_SUITE_P(Settings, MixedWork,
-                         testing::Values(Setting{Optimisation::more, false, "O2"},
-                                         Setting{Optimisation::size, false, "Os"},
-                                         Setting{Optimisation::more, true, "O2u"},
-                                         Setting{Optimisation::size, true, "Osu"}),
+/// Two of them where the compiler is slow: with sanitizers.
+std::vector<Setting> settings() {
+    using toolchain::ir::Optimisation;
+    std::vector<Setting> all = {{Optimisation::more, false, "O2"},
+                                {Optimisation::size, true, "Osu"},
+                                {Optimisation::size, false, "Os"},
+                                {Optimisation::more, true, "O2u"}};
+    if (target_test::kSlowBuild) all.resize(2);
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Settings, MixedWork, testing::ValuesIn(settings()),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

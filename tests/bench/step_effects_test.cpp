@@ -6,6 +6,7 @@
 
 #include "tests/bench/kernel_figures.hpp"
 #include "tests/bench/kernel_page.hpp"
+#include "tests/target/compile.hpp"
 
 namespace toolchain {
 void PrintTo(const StepName& name, std::ostream* out) {  // name from GoogleTest
@@ -19,15 +20,16 @@ const std::string kRoot = ROVER_SOURCE_DIR;
 
 class WithoutStep : public testing::TestWithParam<toolchain::StepName> {};
 
-// measure() compares checksums. Four kernels have a little of everything.
+// measure() compares checksums. Four kernels have a little of everything; with sanitizers two.
 TEST_P(WithoutStep, KernelsGiveTheirChecksums) {
     const std::string folder = kRoot + "/../shared/kernels";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared/kernels is not there";
     toolchain::Steps steps;
     steps.leave_out(GetParam().step);
     for (const bench::Kernel& kernel : bench::read_kernels(kRoot + "/tests/bench/kernels.csv")) {
-        const bool chosen = kernel.name == "wss" || kernel.name == "div32" ||
-                            kernel.name == "fuzzy" || kernel.name == "isqrt";
+        const bool slow = kernel.name == "fuzzy" || kernel.name == "isqrt";
+        const bool chosen =
+            kernel.name == "wss" || kernel.name == "div32" || (slow && !target_test::kSlowBuild);
         if (!chosen) continue;
         EXPECT_NO_THROW((void)bench::measure(kernel,
                                              {.level = toolchain::ir::Optimisation::more,
