@@ -25,6 +25,7 @@ using yardstick::Cells;
 
 constexpr unsigned kRuns = 500;
 constexpr double kMostRatio = 1.5;
+constexpr unsigned kSeed = 1994;
 constexpr uint16_t kReturn = 0xFFF0;  ///< behind the stack: a HLT
 constexpr uint64_t kHltT = 5;
 const std::string kRoot = ROVER_SOURCE_DIR;
@@ -34,9 +35,9 @@ std::string text_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Program compiled() {
+Program compiled(toolchain::ir::Optimisation level) {
     toolchain::driver::Request request;
-    request.level = toolchain::ir::Optimisation::more;
+    request.level = level;
     request.front_end = {"-I" + kRoot, "-I" + kRoot + "/firmware/config/native"};
     request.keep = {"cells", "wss_search", "ring_update", "square_root", "arctangent"};
     request.sources = {{kRoot + "/tests/bench/yardsticks/functions.cpp"}};
@@ -148,28 +149,33 @@ void PrintTo(const Function& function, std::ostream* out) {  // name from Google
 
 class Yardstick : public testing::TestWithParam<Function> {};
 
-TEST_P(Yardstick, CompiledCodeIsNotMuchSlowerThanHandWritten) {
-    const Program ours = compiled();
+void compare(const Function& function, toolchain::ir::Optimisation level, const char* name) {
+    const Program ours = compiled(level);
     const Program hand = by_hand();
     Caller compiled_code(ours);
     Caller hand_written(hand);
-    std::mt19937 random(1994);
+    std::mt19937 random(kSeed);
     uint64_t compiled_t = 0;
     uint64_t hand_t = 0;
     for (unsigned run = 0; run < kRuns; ++run) {
         const Cells before = random_cells(random);
         Cells after = before;
-        GetParam().on_host(after);
+        function.on_host(after);
         const std::vector<uint8_t> expected = bytes_of(after);
-        compiled_t += compiled_code.call(GetParam().name, before);
-        hand_t += hand_written.call(GetParam().name, before);
+        compiled_t += compiled_code.call(function.name, before);
+        hand_t += hand_written.call(function.name, before);
         ASSERT_EQ(compiled_code.cells(expected.size()), expected) << run;
         ASSERT_EQ(hand_written.cells(expected.size()), expected) << run;
     }
     const double ratio = static_cast<double>(compiled_t) / static_cast<double>(hand_t);
     EXPECT_LE(ratio, kMostRatio);
-    fmt::print("{}: compiled {} T, by hand {} T on average, ratio {:.2f}\n", GetParam().name,
-               compiled_t / kRuns, hand_t / kRuns, ratio);
+    fmt::print("{} {}: compiled {} T, by hand {} T on average, ratio {:.2f}, seed {}\n",
+               function.name, name, compiled_t / kRuns, hand_t / kRuns, ratio, kSeed);
+}
+
+TEST_P(Yardstick, CompiledCodeIsNotMuchSlowerThanHandWritten) {
+    compare(GetParam(), toolchain::ir::Optimisation::more, "-O2");
+    compare(GetParam(), toolchain::ir::Optimisation::size, "-Os");
 }
 
 INSTANTIATE_TEST_SUITE_P(Functions, Yardstick,
