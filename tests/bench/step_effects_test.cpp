@@ -45,6 +45,7 @@ TEST_P(WithoutStep, ThePageHasItsFigures) {
     const std::string page =
         bench::read_page(kRoot + "/docs/design/optimisations.md", "step_effects");
     EXPECT_NE(page.find("| `" + std::string(GetParam().name) + "` |"), page.npos);
+    EXPECT_TRUE(std::filesystem::exists(kRoot + "/toolchain/" + std::string(GetParam().where)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, WithoutStep, testing::ValuesIn(toolchain::step_names()),
