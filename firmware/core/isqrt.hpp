@@ -9,22 +9,6 @@
 
 namespace rover {
 
-/// Digit by digit, two bits of the argument for each bit of the root.
-template <class W>
-constexpr W isqrt_digits(W value, W digit, uint8_t passes) {
-    W root{0};
-    for (uint8_t pass = 0; pass < passes; ++pass) {
-        const W trial = add_wrap(root, digit);
-        root = halve_floor(root);
-        if (value >= trial) {
-            value = sub_wrap(value, trial);
-            root = add_wrap(root, digit);
-        }
-        digit = shift_floor<2>(digit);
-    }
-    return root;
-}
-
 /// The next digit of a root, and what is left behind it.
 /// @param rest  what is left in the upper byte, digits to come behind it, two bits each
 constexpr void next_digit(U16& rest, U8& root) {
@@ -68,7 +52,20 @@ constexpr U8 isqrt(SameAs<U16> auto value) {
 /// @return       u16, [0, 65535]
 /// @accuracy     exact floor (Isqrt.OfU32IsTheExactFloor...)
 [[gnu::noinline]] constexpr U16 isqrt(SameAs<U32> auto value) {
-    return narrow_wrap_u16(isqrt_digits(value, U32{0x4000'0000}, 16));
+    // Two bits of the value for each bit of the root.
+    U32 rest = value;
+    U32 digit{0x4000'0000};
+    U32 root{0};
+    for (uint8_t pass = 0; pass < 16; ++pass) {
+        const U32 trial = add_wrap(root, digit);
+        root = halve_floor(root);
+        if (rest >= trial) {
+            rest = sub_wrap(rest, trial);
+            root = add_wrap(root, digit);
+        }
+        digit = shift_floor<2>(digit);
+    }
+    return narrow_wrap_u16(root);
 }
 
 }  // namespace rover

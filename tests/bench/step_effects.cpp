@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/config/eeprom_layout.hpp"
 #include "tests/bench/kernel_figures.hpp"
 #include "tests/bench/kernel_page.hpp"
 #include "tests/target/controller_comparison.hpp"
@@ -62,8 +63,8 @@ uint64_t image_bytes(bool undocumented, const Steps& steps) {
     request.undocumented = undocumented;
     request.steps = steps;
     request.small_runtime = true;
-    request.vector_base = 0x0C00;
-    request.rom = {0x0C00, 0x7FBF};
+    request.vector_base = rover::loader::kApplicationFirst;
+    request.rom = {rover::loader::kApplicationFirst, rover::loader::kApplicationLast};
     request.front_end = {"-I" + kRoot, "-I" + kRoot + "/firmware/config/native"};
     request.sources = {{.path = kRoot + "/firmware/app/main.cpp"}};
     const auto program = toolchain::driver::compile_program(request).program;

@@ -303,11 +303,11 @@ private:
     void find_carries() {
         for (std::size_t index = 0; index < blocks().size(); ++index) {
             BlockFacts& facts = facts_.blocks[index];
+            const std::size_t positions = blocks()[index].operations.size() + 1;
+            facts.carry_answers.resize(positions);
+            facts.carry_until.resize(positions, 0);
+            if (!facts_.steps.contains(Step::carry_answers)) continue;
             facts.carry_answers = find_carry_answers(facts_.function, blocks()[index]);
-            if (!facts_.steps.contains(Step::carry_answers)) {
-                facts.carry_answers.assign(facts.carry_answers.size(), {});
-            }
-            facts.carry_until.assign(facts.carry_answers.size(), 0);
             for (uint32_t at = 0; at < facts.carry_answers.size(); ++at) {
                 const uint32_t from = facts.carry_answers[at].from;
                 if (from != kNone) facts.carry_until[from] = at;

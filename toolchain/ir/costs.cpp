@@ -1,5 +1,5 @@
-// costs.cpp - see costs.hpp. Prices are in operations on a byte and roughly what the runtime's
-// routines take; finer ones changed no kernel.
+// costs.cpp - see costs.hpp. Prices are in operations on a byte, and roughly what the runtime's
+// routines take.
 #include "toolchain/ir/costs.hpp"
 
 #include <llvm/Analysis/TargetTransformInfoImpl.h>
